@@ -1,0 +1,171 @@
+#include "base/file.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+#include <xxhash.h>
+
+#include <atomic>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <iostream>
+#include <iterator>
+
+#include "base/error.h"
+
+namespace viewcell {
+namespace fs = std::filesystem;
+namespace {
+
+std::string errno_text() { return std::strerror(errno); }
+
+// A file descriptor that closes itself.
+class Descriptor {
+ public:
+  explicit Descriptor(int fd) : fd_(fd) {}
+  ~Descriptor() {
+    if (fd_ >= 0) ::close(fd_);
+  }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  int get() const { return fd_; }
+
+ private:
+  int fd_;
+};
+
+std::string read_standard_input(std::uint64_t max_bytes) {
+  std::string bytes;
+  char block[1 << 16];
+  for (;;) {
+    const ssize_t n = ::read(0, block, sizeof block);
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) throw InputError("-", "", "cannot read standard input: " + errno_text());
+    if (n == 0) return bytes;
+    bytes.append(block, static_cast<std::size_t>(n));
+    if (bytes.size() > max_bytes)
+      throw InputError("-", "", "more than " + std::to_string(max_bytes) + " bytes");
+  }
+}
+
+void write_all(int fd, std::string_view bytes, const std::string& name) {
+  while (!bytes.empty()) {
+    const ssize_t n = ::write(fd, bytes.data(), bytes.size());
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) throw MachineError(name + ": cannot write: " + errno_text());
+    bytes.remove_prefix(static_cast<std::size_t>(n));
+  }
+}
+
+// Unique in this process and among processes; leading dot, so that globs pass it over.
+fs::path temporary_beside(const fs::path& target) {
+  static std::atomic<unsigned> counter{0};
+  const std::string tag = std::to_string(::getpid()) + "-" + std::to_string(counter++);
+  return target.parent_path() / (".tmp-" + tag + "-" + target.filename().string());
+}
+
+void sync_path(const fs::path& path, int flags) {
+  const Descriptor fd(::open(path.c_str(), flags));
+  if (fd.get() < 0 || ::fsync(fd.get()) != 0)
+    throw MachineError(path.string() + ": cannot sync: " + errno_text());
+}
+
+}  // namespace
+
+std::string read_file(const fs::path& path, std::uint64_t max_bytes) {
+  if (path == "-") return read_standard_input(max_bytes);
+  const Descriptor fd(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+  if (fd.get() < 0) throw InputError(path.string(), "", "cannot open: " + errno_text());
+  struct stat info {};
+  if (::fstat(fd.get(), &info) != 0) throw InputError(path.string(), "", errno_text());
+  if (S_ISDIR(info.st_mode)) throw InputError(path.string(), "", "is a folder, not a file");
+  const auto size = static_cast<std::uint64_t>(info.st_size);
+  if (size > max_bytes)
+    throw InputError(path.string(), "",
+                     std::to_string(size) + " bytes, more than " + std::to_string(max_bytes));
+  std::string bytes(size, '\0');
+  std::size_t done = 0;
+  for (;;) {
+    if (done == bytes.size()) bytes.resize(done + 4096);  // a pipe has no size: read to its end
+    const ssize_t n = ::read(fd.get(), bytes.data() + done, bytes.size() - done);
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) throw InputError(path.string(), "", "cannot read: " + errno_text());
+    if (n == 0) break;
+    done += static_cast<std::size_t>(n);
+    if (done > max_bytes)
+      throw InputError(path.string(), "", "more than " + std::to_string(max_bytes) + " bytes");
+  }
+  bytes.resize(done);
+  return bytes;
+}
+
+void write_file(const fs::path& path, std::string_view bytes) {
+  if (path == "-") return write_all(1, bytes, "standard output");
+  PendingFile pending(path);
+  {
+    const Descriptor fd(
+        ::open(pending.temporary().c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644));
+    if (fd.get() < 0) throw MachineError(path.string() + ": cannot create: " + errno_text());
+    write_all(fd.get(), bytes, path.string());
+  }
+  pending.commit();
+}
+
+PendingFile::PendingFile(fs::path target)
+    : target_(std::move(target)), temporary_(temporary_beside(target_)) {}
+
+PendingFile::~PendingFile() {
+  if (temporary_.empty()) return;
+  std::error_code ignored;  // the temporary may never have been made
+  fs::remove(temporary_, ignored);
+}
+
+void PendingFile::commit() {
+  sync_path(temporary_, O_RDONLY | O_CLOEXEC);
+  if (::rename(temporary_.c_str(), target_.c_str()) != 0)
+    throw MachineError(target_.string() + ": cannot rename into place: " + errno_text());
+  temporary_.clear();
+  const fs::path folder = target_.has_parent_path() ? target_.parent_path() : ".";
+  sync_path(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+}
+
+void make_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (fs::is_directory(folder)) return;
+  if (fs::exists(folder)) throw InputError(folder.string(), "", "is a file, not a folder");
+  throw MachineError(folder.string() + ": cannot make the folder: " + error.message());
+}
+
+fs::path resolve_inside(const fs::path& file, const std::string& place,
+                        const std::string& relative) {
+  const auto refuse = [&](const std::string& why) -> void {
+    throw InputError(file.string(), place, "path '" + relative + "' " + why);
+  };
+  if (relative.empty()) refuse("is empty");
+  if (relative.find('\0') != std::string::npos) refuse("holds a zero byte");
+  if (fs::path(relative).is_absolute()) refuse("is absolute; it must be relative to the file");
+  const fs::path folder = file.has_parent_path() ? file.parent_path() : ".";
+  const fs::path root = fs::weakly_canonical(folder);
+  const fs::path full = fs::weakly_canonical(folder / relative);
+  const auto [at_root, at_full] =
+      std::mismatch(root.begin(), root.end(), full.begin(), full.end());
+  if (at_root != root.end()) refuse("leaves the file's folder");
+  return folder / relative;
+}
+
+std::uint64_t hash_bytes(const void* data, std::size_t n_bytes) {
+  return XXH3_64bits(data, n_bytes);
+}
+
+std::string hash_hex(std::string_view bytes) {
+  char text[17];
+  std::snprintf(text, sizeof text, "%016llx",
+                static_cast<unsigned long long>(hash_bytes(bytes.data(), bytes.size())));
+  return text;
+}
+
+std::string hash_file(const fs::path& path) { return hash_hex(read_file(path)); }
+
+}  // namespace viewcell

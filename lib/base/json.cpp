@@ -1,0 +1,155 @@
+#include "base/json.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "base/file.h"
+
+namespace viewcell {
+namespace {
+
+constexpr int kMaxDepth = 64;
+
+// The byte at which nesting passes kMaxDepth, or npos. nlohmann's values are destroyed one level a
+// stack frame, so a deep file would crash after it was parsed: look before parsing.
+std::size_t too_deep_at(const std::string& text) {
+  int depth = 0;
+  bool in_string = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (in_string) {
+      if (c == '\\') ++i;
+      if (c == '"') in_string = false;
+    } else if (c == '"') {
+      in_string = true;
+    } else if (c == '[' || c == '{') {
+      if (++depth > kMaxDepth) return i;
+    } else if (c == ']' || c == '}') {
+      --depth;
+    }
+  }
+  return std::string::npos;
+}
+
+bool is_flat_array(const Json& json) {
+  return json.is_array() &&
+         std::none_of(json.begin(), json.end(), [](const Json& v) { return v.is_structured(); });
+}
+
+void append_json(const Json& json, int indent, std::string& out) {
+  if (!json.is_structured() || json.empty() || is_flat_array(json)) {
+    out += json.dump();
+    return;
+  }
+  const bool object = json.is_object();
+  const std::string margin(static_cast<std::size_t>(indent + 2), ' ');
+  out += object ? "{" : "[";
+  bool first = true;
+  for (const auto& [key, value] : json.items()) {
+    out += first ? "\n" : ",\n";
+    first = false;
+    out += margin;
+    if (object) out += Json(key).dump() + ": ";
+    append_json(value, indent + 2, out);
+  }
+  out += "\n" + std::string(static_cast<std::size_t>(indent), ' ') + (object ? "}" : "]");
+}
+
+std::string format_number(double x) { return Json(x).dump(); }
+
+}  // namespace
+
+Json parse_json(const std::string& text, const std::filesystem::path& file) {
+  if (const std::size_t at = too_deep_at(text); at != std::string::npos)
+    throw InputError(file.string(), "byte " + std::to_string(at),
+                     "JSON nested deeper than " + std::to_string(kMaxDepth));
+  try {
+    return Json::parse(text);
+  } catch (const Json::parse_error& error) {
+    throw InputError(file.string(), "byte " + std::to_string(error.byte), "not valid JSON");
+  } catch (const Json::exception&) {
+    throw InputError(file.string(), "", "not valid JSON (a number out of range?)");
+  }
+}
+
+Json read_json(const std::filesystem::path& file, const std::string& format, int version) {
+  Json json = parse_json(read_file(file, 1u << 30), file);
+  const JsonCursor root(json, file);
+  if (!json.is_object()) root.fail("is not a JSON object");
+  if (!root.has("format") || root.at("format").value() != format)
+    root.fail("\"format\" is not \"" + format + "\"");
+  const auto found = root.at("version").integer(0, 1 << 30);
+  if (found != version)
+    root.at("version").fail("version " + std::to_string(found) + ", this tool reads version " +
+                            std::to_string(version));
+  return json;
+}
+
+std::string format_json(const Json& json) {
+  std::string out;
+  append_json(json, 0, out);
+  out += "\n";
+  return out;
+}
+
+bool JsonCursor::has(const std::string& key) const {
+  return value_->is_object() && value_->contains(key);
+}
+
+JsonCursor JsonCursor::at(const std::string& key) const {
+  if (!value_->is_object()) fail("is not an object");
+  const auto found = value_->find(key);
+  if (found == value_->end()) fail("has no \"" + key + "\"");
+  return {*found, *file_, place_.empty() ? key : place_ + "." + key};
+}
+
+JsonCursor JsonCursor::at(std::size_t i) const {
+  if (!value_->is_array()) fail("is not an array");
+  if (i >= value_->size()) fail("has no element " + std::to_string(i));
+  return {(*value_)[i], *file_, place_ + "[" + std::to_string(i) + "]"};
+}
+
+std::size_t JsonCursor::size(std::size_t most) const {
+  if (!value_->is_array()) fail("is not an array");
+  if (value_->size() > most) fail("has more than " + std::to_string(most) + " elements");
+  return value_->size();
+}
+
+double JsonCursor::number(double lo, double hi) const {
+  if (!value_->is_number()) fail("is not a number");
+  const double x = value_->get<double>();
+  if (!std::isfinite(x) || x < lo || x > hi)
+    fail(value_->dump() + " is not within " + format_number(lo) + " to " + format_number(hi));
+  return x;
+}
+
+std::int64_t JsonCursor::integer(std::int64_t lo, std::int64_t hi) const {
+  const double x =
+      number(static_cast<double>(lo), static_cast<double>(hi));
+  if (x != std::floor(x)) fail(value_->dump() + " is not a whole number");
+  return static_cast<std::int64_t>(x);
+}
+
+bool JsonCursor::boolean() const {
+  if (!value_->is_boolean()) fail("is not true or false");
+  return value_->get<bool>();
+}
+
+std::string JsonCursor::string() const {
+  if (!value_->is_string()) fail("is not a string");
+  return value_->get<std::string>();
+}
+
+std::vector<double> JsonCursor::numbers(std::size_t n, double lo, double hi) const {
+  if (size() != n) fail("has " + std::to_string(size()) + " numbers, not " + std::to_string(n));
+  std::vector<double> out(n);
+  for (std::size_t i = 0; i < n; ++i) out[i] = at(i).number(lo, hi);
+  return out;
+}
+
+void JsonCursor::fail(const std::string& what) const {
+  throw InputError(file_->string(), place_, what);
+}
+
+}  // namespace viewcell

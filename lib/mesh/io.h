@@ -1,0 +1,22 @@
+// Reading and writing meshes. Readers trust nothing: counts are checked against the file's size
+// before anything is allocated, coordinates must be finite, indices in range.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "mesh/mesh.h"
+
+namespace viewcell {
+
+/// Reads OBJ, PLY (also .ply.gz), OFF, STL, GLB/glTF, 3DS by the file's extension. Polygons are cut into
+/// fans; vertex order and numbers stay those of the file (STL: equal positions become one vertex).
+/// Throws InputError (file, place) for anything malformed, and for a mesh with no faces.
+TriMesh read_mesh(const std::filesystem::path& file);
+
+/// Binary little-endian PLY: positions, and normals and colours where present. comments: lines of
+/// provenance. Whole or not at all.
+void write_ply(const std::filesystem::path& file, const TriMesh& mesh,
+               const std::vector<std::string>& comments = {});
+
+}  // namespace viewcell

@@ -1,0 +1,53 @@
+// Cameras and camera paths (docs/formats.md, path.json).
+#pragma once
+
+#include <filesystem>
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "base/json.h"
+
+namespace viewcell {
+
+/// The vertical field of view of every frame, in a square frame [Chen06 5.3].
+inline constexpr double kFovYDeg = 60;
+/// Distance of the near plane, in the park's units.
+inline constexpr double kNear = 1;
+
+/// A camera with the world's z up.
+struct Camera {
+  glm::dvec3 eye{0};
+  glm::dvec3 forward{1, 0, 0};  ///< unit, not vertical
+  double fov_y_deg = kFovYDeg;
+  double aspect = 1;  ///< width / height
+  double near = kNear;
+};
+
+/// Rows: right, up, -forward (OpenGL's eye space: x right, y up, looking along -z).
+glm::dmat4 view_from_world(const Camera& camera);
+/// Reversed, infinite depth in [0, 1]: clip z = near, clip w = distance along forward. Needs
+/// glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE) and a GL_GREATER depth test with clear 0.
+glm::dmat4 clip_from_view(const Camera& camera);
+inline glm::dmat4 clip_from_world(const Camera& camera) {
+  return clip_from_view(camera) * view_from_world(camera);
+}
+
+struct PathSample {
+  double time_s = 0;
+  glm::dvec3 eye{0};
+  glm::dvec3 forward{1, 0, 0};
+};
+
+/// Samples in order of time; the camera moves linearly between them.
+struct CameraPath {
+  std::vector<PathSample> samples;
+};
+
+CameraPath read_path(const std::filesystem::path& file);
+Json format_path(const CameraPath& path, const Json& provenance);
+
+/// n cameras at equal steps of time over the whole path, both ends included (n = 1: the start).
+/// Eyes are interpolated linearly, directions along the arc between them.
+std::vector<Camera> sample_path(const CameraPath& path, std::size_t n);
+
+}  // namespace viewcell

@@ -1,0 +1,90 @@
+// A scene: meshes, materials, and the objects that place them (docs/formats.md, scene.json).
+#pragma once
+
+#include <filesystem>
+#include <glm/glm.hpp>
+#include <glm/gtc/quaternion.hpp>
+#include <string>
+#include <vector>
+
+#include "base/ids.h"
+#include "base/json.h"
+#include "mesh/mesh.h"
+#include "scene/lighting.h"
+
+namespace viewcell {
+
+/// What a surface looks like. Colours are linear, [0, 1].
+struct Material {
+  std::string name;
+  glm::vec3 base_color{0.5f};
+  std::string base_color_texture;  ///< a path as in the file; empty: none
+  bool double_sided = false;       ///< otherwise back faces are culled in every mode
+};
+
+/// A mesh of the scene, in model space: z up, the file's own up axis and scale already applied.
+struct SceneMesh {
+  std::string name;   ///< "dragon"
+  std::string file;   ///< as written in scene.json, relative to it
+  std::string up = "z";
+  double scale = 1;
+  std::string substitutes;  ///< what this mesh stands in for; empty: it is what its name says
+  TriMesh mesh;             ///< with normals; empty when the scene was read without meshes
+};
+
+/// A placed instance: world = translation + rotation * (scale * model).
+struct SceneObject {
+  std::string name;
+  MeshId mesh{};
+  int material = 0;  ///< place in Scene::materials; a mesh's own per-triangle materials win
+  glm::dvec3 translation{0};
+  glm::dquat rotation{1, 0, 0, 0};
+  double scale = 1;
+
+  glm::dvec3 world_from_model(const glm::dvec3& p) const {
+    return translation + rotation * (scale * p);
+  }
+  glm::dvec3 model_from_world(const glm::dvec3& p) const {
+    return glm::conjugate(rotation) * (p - translation) / scale;
+  }
+  glm::dmat4 matrix_world_from_model() const;
+};
+
+/// The rectangle of the x-y plane that is cut into view cells.
+struct Area {
+  glm::dvec2 lo{0}, hi{0};
+};
+
+struct Scene {
+  std::string name;
+  Area area;
+  Lighting lighting;
+  double ground_z = 0;
+  std::vector<Material> materials;
+  std::vector<SceneMesh> meshes;
+  std::vector<SceneObject> objects;
+  std::string hash;  ///< of scene.json's bytes and of every mesh file's
+
+  const SceneMesh& mesh_of(const SceneObject& object) const { return meshes[index(object.mesh)]; }
+};
+
+struct ReadSceneOptions {
+  bool with_meshes = true;  ///< false: only scene.json is parsed; meshes stay empty
+  int n_threads = 0;
+};
+
+/// Reads scene.json and the meshes that it names. Every path must stay inside its folder.
+/// Throws InputError (file, place).
+Scene read_scene(const std::filesystem::path& file, const ReadSceneOptions& options = {});
+
+/// scene.json without the mesh files, which the caller writes beside it.
+/// provenance: {"tool", "version", "options"} of the maker.
+Json format_scene(const Scene& scene, const Json& provenance);
+
+/// Triangles of all objects together.
+std::size_t count_triangles(const Scene& scene);
+
+/// The object's box in the world.
+Box world_box(const Scene& scene, const SceneObject& object);
+
+}  // namespace viewcell

@@ -1,0 +1,50 @@
+#include "base/heap.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "base/random.h"
+
+namespace viewcell {
+namespace {
+
+TEST(IndexedHeap, PopsInOrderOfKeyThenId) {
+  IndexedHeap heap(5);
+  heap.set(3, 1.0f), heap.set(1, 2.0f), heap.set(4, 1.0f), heap.set(0, 3.0f);
+  heap.set(0, 0.5f);  // moved up
+  heap.set(3, 2.0f);  // moved down, ties with 1
+  std::vector<std::uint32_t> order;
+  for (; !heap.empty(); heap.pop()) order.push_back(heap.top());
+  EXPECT_EQ(order, (std::vector<std::uint32_t>{0, 4, 1, 3}));
+}
+
+TEST(IndexedHeap, AgreesWithSortingUnderRandomChanges) {
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    SCOPED_TRACE(seed);
+    Random random(seed);
+    constexpr std::uint32_t n = 200;
+    IndexedHeap heap(n);
+    std::vector<float> keys(n, -1);
+    for (int step = 0; step < 2000; ++step) {
+      const std::uint32_t id = random.below(n);
+      if (random.below(4) == 0) {
+        heap.erase(id);
+        keys[id] = -1;
+      } else {
+        keys[id] = static_cast<float>(random.below(50));
+        heap.set(id, keys[id]);
+      }
+    }
+    std::vector<std::pair<float, std::uint32_t>> expected, popped;
+    for (std::uint32_t id = 0; id < n; ++id)
+      if (keys[id] >= 0) expected.emplace_back(keys[id], id);
+    std::sort(expected.begin(), expected.end());
+    for (; !heap.empty(); heap.pop()) popped.emplace_back(heap.key(heap.top()), heap.top());
+    EXPECT_EQ(popped, expected);
+  }
+}
+
+}  // namespace
+}  // namespace viewcell

@@ -1,0 +1,51 @@
+// What every tool's main shares: the common options, progress on a terminal, one-line errors and
+// exit codes (STYLE: 0 ok, 1 input, 2 usage, 3 machine, 4 bug, 5 over the threshold asked for).
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <string>
+
+#include "base/json.h"
+#include "base/parallel.h"
+
+namespace viewcell {
+
+/// The options that every tool has.
+struct CommonOptions {
+  std::string output;     ///< -o
+  bool quiet = false;     ///< -q: no progress, no summary on stderr
+  int n_threads = 0;      ///< -j: 0 = all cores
+  std::string json_file;  ///< --json: a report, "-" = standard output
+};
+
+/// A tool: its command line, declared in the constructor's caller, and its common options.
+class Tool {
+ public:
+  /// example: one or more command lines, shown under --help.
+  Tool(const std::string& name, const std::string& description, const std::string& example);
+
+  CLI::App& app() { return app_; }
+  const CommonOptions& common() const { return common_; }
+  const std::string& name() const { return name_; }
+  /// Declares -o with a description; required unless said otherwise.
+  void add_output(const std::string& description, bool required = true);
+
+  /// Parses, runs, and turns exceptions into one line on stderr and an exit code. `run` returns the
+  /// exit code (0 or 5).
+  int main(int argc, char** argv, const std::function<int()>& run);
+
+  /// A bar on stderr when that is a terminal and -q is absent; otherwise empty.
+  Progress progress(const std::string& what) const;
+  /// A line for people on stderr, unless -q.
+  void say(const std::string& line) const;
+  /// Writes the report where --json asks for it, if it does.
+  void report(const Json& json) const;
+
+ private:
+  std::string name_;
+  CommonOptions common_;
+  CLI::App app_;
+};
+
+}  // namespace viewcell
