@@ -24,12 +24,14 @@ struct Material {
 
 /// A mesh of the scene, in model space: z up, the file's own up axis and scale already applied.
 struct SceneMesh {
-  std::string name;   ///< "dragon"
-  std::string file;   ///< as written in scene.json, relative to it
+  std::string name;  ///< "dragon"
+  std::string file;  ///< as written in scene.json, relative to it
   std::string up = "z";
   double scale = 1;
-  std::string substitutes;  ///< what this mesh stands in for; empty: it is what its name says
-  TriMesh mesh;             ///< with normals; empty when the scene was read without meshes
+  std::string substitutes;      ///< what this mesh stands in for; empty: it is what its name says
+  std::string hash;             ///< hash_file() of the file
+  std::size_t n_triangles = 0;  ///< known even when the scene was read without meshes
+  TriMesh mesh;                 ///< with normals; empty when the scene was read without meshes
 };
 
 /// A placed instance: world = translation + rotation * (scale * model).
@@ -63,7 +65,7 @@ struct Scene {
   std::vector<Material> materials;
   std::vector<SceneMesh> meshes;
   std::vector<SceneObject> objects;
-  std::string hash;  ///< of scene.json's bytes and of every mesh file's
+  std::string hash;  ///< of what scene.json says (white space aside) and of every mesh file's bytes
 
   const SceneMesh& mesh_of(const SceneObject& object) const { return meshes[index(object.mesh)]; }
 };
@@ -73,18 +75,21 @@ struct ReadSceneOptions {
   int n_threads = 0;
 };
 
-/// Reads scene.json and the meshes that it names. Every path must stay inside its folder.
+/// Reads scene.json and the meshes that it names. Every path must stay inside its folder; a mesh
+/// file must be the one that the scene was written with ("hash", "triangles"; a scene written by
+/// hand may leave both out, and its meshes are then read even without with_meshes).
 /// Throws InputError (file, place).
 Scene read_scene(const std::filesystem::path& file, const ReadSceneOptions& options = {});
 
 /// scene.json without the mesh files, which the caller writes beside it.
-/// provenance: {"tool", "version", "options"} of the maker.
+/// provenance: {"tool", "version", "options"} of the maker. Each mesh's hash and n_triangles must
+/// be set. What read_scene() reads back is equal, bit for bit.
 Json format_scene(const Scene& scene, const Json& provenance);
 
 /// Triangles of all objects together.
 std::size_t count_triangles(const Scene& scene);
 
-/// The object's box in the world.
+/// The object's box in the world, tight around its vertices. O(vertices); needs the mesh.
 Box world_box(const Scene& scene, const SceneObject& object);
 
 }  // namespace viewcell

@@ -1,0 +1,29 @@
+#include "scene/scene.h"
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "base/error.h"
+
+namespace viewcell {
+
+glm::dmat4 SceneObject::matrix_world_from_model() const {
+  glm::dmat4 matrix(glm::mat3_cast(rotation) * scale);
+  matrix[3] = glm::dvec4(translation, 1);
+  return matrix;
+}
+
+std::size_t count_triangles(const Scene& scene) {
+  std::size_t n = 0;
+  for (const SceneObject& object : scene.objects) n += scene.mesh_of(object).n_triangles;
+  return n;
+}
+
+Box world_box(const Scene& scene, const SceneObject& object) {
+  const TriMesh& mesh = scene.mesh_of(object).mesh;
+  VIEWCELL_CHECK(!mesh.positions.empty(), "the scene was read without meshes:", scene.name);
+  Box box;
+  for (const glm::vec3& p : mesh.positions) box.add(object.world_from_model(glm::dvec3(p)));
+  return box;
+}
+
+}  // namespace viewcell

@@ -1,0 +1,246 @@
+// scene.json (docs/formats.md, docs/schemas/scene.schema.json).
+#include <charconv>
+#include <cmath>
+
+#include "base/error.h"
+#include "base/file.h"
+#include "base/parallel.h"
+#include "mesh/io.h"
+#include "scene/scene.h"
+
+namespace viewcell {
+namespace {
+
+constexpr const char* kFormat = "viewcell-scene";
+constexpr double kMaxCoordinate = 1e7;   // beyond it, float geometry has lost the park's detail
+constexpr double kUnitTolerance = 1e-3;  // a direction or quaternion written with few digits
+constexpr double kMinScale = 1e-9, kMaxScale = 1e9;
+
+// --- writing ---
+
+// The double whose shortest text is the float's: 0.48f is written 0.48, not 0.479999989.
+double short_double(float x) {
+  char text[40];
+  const auto end = std::to_chars(text, text + sizeof text, x).ptr;
+  double out = 0;
+  std::from_chars(text, end, out);
+  return out;
+}
+
+Json to_json(const glm::vec3& v) {
+  return {short_double(v.x), short_double(v.y), short_double(v.z)};
+}
+
+Json to_json(const Material& material) {
+  return {{"name", material.name},
+          {"base_color", to_json(material.base_color)},
+          {"base_color_texture",
+           material.base_color_texture.empty() ? Json(nullptr) : Json(material.base_color_texture)},
+          {"double_sided", material.double_sided}};
+}
+
+Json to_json(const SceneMesh& mesh) {
+  VIEWCELL_CHECK(!mesh.hash.empty() && mesh.n_triangles > 0, mesh.name);
+  return {{"name", mesh.name},
+          {"file", mesh.file},
+          {"up", mesh.up},
+          {"scale", mesh.scale},
+          {"triangles", mesh.n_triangles},
+          {"hash", mesh.hash},
+          {"substitutes", mesh.substitutes}};
+}
+
+Json to_json(const SceneObject& object) {
+  const glm::dquat& q = object.rotation;
+  const glm::dvec3& t = object.translation;
+  return {{"name", object.name},
+          {"mesh", index(object.mesh)},
+          {"material", object.material},
+          {"translation", {t.x, t.y, t.z}},
+          {"rotation", {q.x, q.y, q.z, q.w}},
+          {"scale", object.scale}};
+}
+
+template <typename T>
+Json array_to_json(const std::vector<T>& items) {
+  Json array = Json::array();
+  for (const T& item : items) array.push_back(to_json(item));
+  return array;
+}
+
+// --- reading ---
+
+glm::vec3 color_at(const JsonCursor& cursor, double most) {
+  const std::vector<double> c = cursor.numbers(3, 0, most);
+  return {c[0], c[1], c[2]};
+}
+
+Area read_area(const JsonCursor& cursor) {
+  const auto lo = cursor.at("lo").numbers(2, -kMaxCoordinate, kMaxCoordinate);
+  const auto hi = cursor.at("hi").numbers(2, -kMaxCoordinate, kMaxCoordinate);
+  if (!(lo[0] < hi[0] && lo[1] < hi[1])) cursor.fail("is empty: lo is not below hi");
+  return {{lo[0], lo[1]}, {hi[0], hi[1]}};
+}
+
+Lighting read_lighting(const JsonCursor& root) {
+  constexpr double kMostLight = 100;
+  const JsonCursor light = root.at("light");
+  Lighting out;
+  const auto d = light.at("toward_light").numbers(3, -2, 2);
+  const glm::dvec3 toward(d[0], d[1], d[2]);
+  if (!(std::abs(glm::length(toward) - 1) <= kUnitTolerance))
+    light.at("toward_light").fail("is not a unit vector");
+  out.toward_light = glm::vec3(toward);
+  out.light = color_at(light.at("color"), kMostLight);
+  out.ambient_sky = color_at(light.at("ambient_sky"), kMostLight);
+  out.ambient_ground = color_at(light.at("ambient_ground"), kMostLight);
+  out.sky_color = color_at(root.at("sky").at("color"), 1);
+  out.ground_color = color_at(root.at("ground").at("color"), 1);
+  return out;
+}
+
+Material read_material(const JsonCursor& cursor) {
+  Material material;
+  material.name = cursor.at("name").string();
+  material.base_color = color_at(cursor.at("base_color"), 1);
+  const JsonCursor texture = cursor.at("base_color_texture");
+  if (!texture.value().is_null()) {
+    material.base_color_texture = texture.string();
+    resolve_inside(cursor.file(), texture.place(), material.base_color_texture);
+  }
+  material.double_sided = cursor.at("double_sided").boolean();
+  return material;
+}
+
+SceneMesh read_mesh_entry(const JsonCursor& cursor) {
+  SceneMesh mesh;
+  mesh.name = cursor.at("name").string();
+  mesh.file = cursor.at("file").string();
+  resolve_inside(cursor.file(), cursor.at("file").place(), mesh.file);
+  mesh.up = cursor.at("up").string();
+  if (mesh.up != "x" && mesh.up != "y" && mesh.up != "z")
+    cursor.at("up").fail("'" + mesh.up + "' is not x, y or z");
+  mesh.scale = cursor.at("scale").number(kMinScale, kMaxScale);
+  if (cursor.has("triangles"))
+    mesh.n_triangles = static_cast<std::size_t>(cursor.at("triangles").integer(1, 1LL << 32));
+  if (cursor.has("hash")) mesh.hash = cursor.at("hash").string();
+  if (cursor.has("substitutes")) mesh.substitutes = cursor.at("substitutes").string();
+  return mesh;
+}
+
+SceneObject read_object(const JsonCursor& cursor, const Scene& scene) {
+  const auto place_in = [&](const char* key, std::size_t n) {
+    const JsonCursor at = cursor.at(key);
+    const auto place = at.integer(-(1LL << 40), 1LL << 40);
+    if (place < 0 || place >= static_cast<std::int64_t>(n))
+      at.fail(std::to_string(place) + " is out of range: there are " + std::to_string(n));
+    return static_cast<std::int32_t>(place);
+  };
+  SceneObject object;
+  object.name = cursor.at("name").string();
+  object.mesh = MeshId(place_in("mesh", scene.meshes.size()));
+  object.material = place_in("material", scene.materials.size());
+  const auto t = cursor.at("translation").numbers(3, -kMaxCoordinate, kMaxCoordinate);
+  object.translation = {t[0], t[1], t[2]};
+  const auto q = cursor.at("rotation").numbers(4, -2, 2);
+  const glm::dquat rotation(q[3], q[0], q[1], q[2]);
+  const double length = glm::length(rotation);
+  if (!(std::abs(length - 1) <= kUnitTolerance))
+    cursor.at("rotation").fail("is not a unit quaternion (x, y, z, w)");
+  // A quaternion that is unit up to rounding stays as it is: reading what was written changes
+  // nothing.
+  object.rotation = std::abs(length - 1) < 1e-12 ? rotation : rotation / length;
+  object.scale = cursor.at("scale").number(kMinScale, kMaxScale);
+  return object;
+}
+
+// Turns the file's up axis to z and applies its scale.
+void apply_up_and_scale(SceneMesh& mesh) {
+  const auto turn = [&](const glm::vec3& p) -> glm::vec3 {
+    if (mesh.up == "y") return {p.x, -p.z, p.y};
+    if (mesh.up == "x") return {p.y, p.z, p.x};
+    return p;
+  };
+  for (glm::vec3& p : mesh.mesh.positions) p = turn(p) * static_cast<float>(mesh.scale);
+  for (glm::vec3& n : mesh.mesh.normals) n = turn(n);
+}
+
+// Reads and checks one mesh file; place: "meshes[3]".
+void load_mesh(const std::filesystem::path& scene_file, const std::string& place, SceneMesh& mesh) {
+  const std::filesystem::path file = resolve_inside(scene_file, place + ".file", mesh.file);
+  const std::string hash = hash_file(file);
+  if (!mesh.hash.empty() && mesh.hash != hash)
+    throw InputError(file.string(), "", "mesh file changed since the scene was written");
+  mesh.hash = hash;
+  mesh.mesh = read_mesh(file);
+  const std::size_t n = mesh.mesh.triangles.size();
+  if (n == 0) throw InputError(file.string(), "", "mesh has no faces");
+  if (mesh.n_triangles != 0 && mesh.n_triangles != n)
+    throw InputError(
+        scene_file.string(), place + ".triangles",
+        std::to_string(mesh.n_triangles) + ", but '" + mesh.file + "' has " + std::to_string(n));
+  mesh.n_triangles = n;
+  apply_up_and_scale(mesh);
+  const Box box = bounding_box(mesh.mesh);
+  for (int axis = 0; axis < 3; ++axis)
+    if (!(box.lo[axis] >= -kMaxCoordinate && box.hi[axis] <= kMaxCoordinate))
+      throw InputError(file.string(), "", "coordinates leave +-1e7 after scaling");
+  if (mesh.mesh.normals.empty()) mesh.mesh.normals = make_vertex_normals(mesh.mesh);
+}
+
+void load_meshes(const std::filesystem::path& file, const ReadSceneOptions& options, Scene& scene) {
+  parallel_for(scene.meshes.size(), options.n_threads, [&](std::size_t i) {
+    SceneMesh& mesh = scene.meshes[i];
+    if (options.with_meshes || mesh.hash.empty() || mesh.n_triangles == 0)
+      load_mesh(file, "meshes[" + std::to_string(i) + "]", mesh);
+    if (!options.with_meshes) mesh.mesh = {};
+  });
+}
+
+}  // namespace
+
+Scene read_scene(const std::filesystem::path& file, const ReadSceneOptions& options) {
+  const Json json = read_json(file, kFormat, 1);
+  const JsonCursor root(json, file);
+  Scene scene;
+  scene.name = root.at("name").string();
+  scene.area = read_area(root.at("area"));
+  scene.lighting = read_lighting(root);
+  scene.ground_z = root.at("ground").at("z").number(-kMaxCoordinate, kMaxCoordinate);
+  const auto each = [&](const char* key, const auto& read) {
+    const JsonCursor array = root.at(key);
+    const std::size_t n = array.size();
+    for (std::size_t i = 0; i < n; ++i) read(array.at(i));
+  };
+  each("materials", [&](const JsonCursor& at) { scene.materials.push_back(read_material(at)); });
+  each("meshes", [&](const JsonCursor& at) { scene.meshes.push_back(read_mesh_entry(at)); });
+  each("objects", [&](const JsonCursor& at) { scene.objects.push_back(read_object(at, scene)); });
+  load_meshes(file, options, scene);
+  std::string hashes = hash_hex(json.dump());
+  for (const SceneMesh& mesh : scene.meshes) hashes += mesh.hash;
+  scene.hash = hash_hex(hashes);
+  return scene;
+}
+
+Json format_scene(const Scene& scene, const Json& provenance) {
+  const Lighting& l = scene.lighting;
+  return {
+      {"format", kFormat},
+      {"version", 1},
+      {"made_by", provenance},
+      {"name", scene.name},
+      {"area",
+       {{"lo", {scene.area.lo.x, scene.area.lo.y}}, {"hi", {scene.area.hi.x, scene.area.hi.y}}}},
+      {"ground", {{"z", scene.ground_z}, {"color", to_json(l.ground_color)}}},
+      {"sky", {{"color", to_json(l.sky_color)}}},
+      {"light",
+       {{"toward_light", to_json(l.toward_light)},
+        {"color", to_json(l.light)},
+        {"ambient_sky", to_json(l.ambient_sky)},
+        {"ambient_ground", to_json(l.ambient_ground)}}},
+      {"materials", array_to_json(scene.materials)},
+      {"meshes", array_to_json(scene.meshes)},
+      {"objects", array_to_json(scene.objects)}};
+}
+
+}  // namespace viewcell
