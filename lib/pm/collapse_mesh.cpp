@@ -1,0 +1,148 @@
+#include "pm/collapse_mesh.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace viewcell {
+
+const char* refusal_name(Refusal refusal) {
+  constexpr const char* names[kRefusalKinds] = {"none", "link", "boundary", "flip", "metric"};
+  return names[static_cast<int>(refusal)];
+}
+
+CollapseMesh::CollapseMesh(std::span<const glm::vec3> positions,
+                           std::span<const Triangle> triangles)
+    : positions_(positions),
+      corners_(3 * triangles.size(), kEnd),
+      next_(3 * triangles.size(), kEnd),
+      head_(positions.size(), kEnd),
+      mark_(positions.size(), 0) {
+  for (std::size_t t = triangles.size(); t-- > 0;) {  // backwards: lists end up in input order
+    const Triangle& triangle = triangles[t];
+    if (triangle[0] == triangle[1] || triangle[1] == triangle[2] || triangle[2] == triangle[0])
+      continue;
+    ++n_triangles_;
+    for (std::uint32_t k = 0; k < 3; ++k) {
+      const auto c = static_cast<std::uint32_t>(3 * t + k);
+      corners_[c] = triangle[k];
+      next_[c] = head_[triangle[k]];
+      head_[triangle[k]] = c;
+    }
+  }
+}
+
+void CollapseMesh::ring(std::uint32_t v, std::vector<std::uint32_t>& out) const {
+  out.clear();
+  for_each_triangle(v, [&](std::uint32_t a, std::uint32_t b) {
+    if (std::find(out.begin(), out.end(), a) == out.end()) out.push_back(a);
+    if (std::find(out.begin(), out.end(), b) == out.end()) out.push_back(b);
+  });
+}
+
+Refusal CollapseMesh::check(std::uint32_t u, std::uint32_t v, float min_cosine) {
+  bool is_boundary_edge = false;
+  if (!keeps_topology(u, v, is_boundary_edge)) return Refusal::link;
+  if (!is_boundary_edge && is_on_boundary(u)) return Refusal::boundary;
+  if (!keeps_normals(u, v, min_cosine)) return Refusal::flip;
+  return Refusal::none;
+}
+
+// The link condition [Dey, Edelsbrunner, Guha, Nekhayev 1999]: a vertex joined to both u and v must
+// be the third corner of a triangle at uv, and no triangle of u may come to lie on one of v.
+bool CollapseMesh::keeps_topology(std::uint32_t u, std::uint32_t v, bool& is_boundary_edge) {
+  stamp_ += 4;
+  const std::uint32_t at_u = stamp_, opposite = stamp_ + 1;
+  for_each_triangle(u, [&](std::uint32_t a, std::uint32_t b) {
+    mark_[a] = std::max(mark_[a], at_u);
+    mark_[b] = std::max(mark_[b], at_u);
+    if (a == v) mark_[b] = opposite;
+    if (b == v) mark_[a] = opposite;
+  });
+  int n_shared = 0;
+  bool legal = true;
+  for_each_triangle(v, [&](std::uint32_t a, std::uint32_t b) {
+    n_shared += (a == u) + (b == u);
+    for (const std::uint32_t w : {a, b})
+      if (w != u && mark_[w] == at_u) legal = false;  // joined to both, but no triangle u v w
+  });
+  if (!legal || n_shared == 0) return false;
+  for_each_triangle(u, [&](std::uint32_t a, std::uint32_t b) {
+    if (a != v && b != v && mark_[a] == opposite && mark_[b] == opposite) legal = false;
+  });
+  is_boundary_edge = n_shared == 1;
+  return legal;
+}
+
+// Whether some edge of u has exactly one triangle.
+bool CollapseMesh::is_on_boundary(std::uint32_t u) {
+  // Each triangle (u, a, b) has the edges u-a and u-b; around an interior vertex every neighbour is
+  // met an even number of times.
+  stamp_ += 4;
+  const std::uint32_t odd = stamp_ + 1, even = stamp_ + 2;
+  int n_odd = 0;
+  for_each_triangle(u, [&](std::uint32_t a, std::uint32_t b) {
+    for (const std::uint32_t w : {a, b}) {
+      const bool was_odd = mark_[w] == odd;
+      mark_[w] = was_odd ? even : odd;
+      n_odd += was_odd ? -1 : 1;
+    }
+  });
+  return n_odd > 0;
+}
+
+bool CollapseMesh::keeps_normals(std::uint32_t u, std::uint32_t v, float min_cosine) const {
+  const glm::vec3 from = positions_[u], to = positions_[v];
+  bool keeps = true;
+  for_each_triangle(u, [&](std::uint32_t a, std::uint32_t b) {
+    if (a == v || b == v || !keeps) return;
+    const glm::vec3 pa = positions_[a], pb = positions_[b];
+    const glm::vec3 before = glm::cross(pa - from, pb - from);
+    const glm::vec3 after = glm::cross(pa - to, pb - to);
+    const float limit = min_cosine * std::sqrt(glm::dot(before, before) * glm::dot(after, after));
+    if (glm::dot(before, after) < limit) keeps = false;
+    // no area, or next to none for its longest edge (a needle shows as a crack): height < 1e-3 edge
+    const float longest = std::max(
+        {glm::dot(pa - to, pa - to), glm::dot(pb - to, pb - to), glm::dot(pa - pb, pa - pb)});
+    if (!(glm::dot(after, after) > 1e-6f * longest * longest)) keeps = false;
+  });
+  return keeps;
+}
+
+void CollapseMesh::unlink(std::uint32_t v, std::uint32_t corner) {
+  std::uint32_t* link = &head_[v];
+  while (*link != corner) link = &next_[*link];
+  *link = next_[corner];
+}
+
+void CollapseMesh::collapse(std::uint32_t u, std::uint32_t v) {
+  std::uint32_t last = kEnd;  // the last corner of u that lives on
+  for (std::uint32_t c = head_[u]; c != kEnd;) {
+    const std::uint32_t after = next_[c], t = 3 * (c / 3);
+    if (corners_[t] == v || corners_[t + 1] == v || corners_[t + 2] == v) {
+      for (std::uint32_t k = 0; k < 3; ++k) {
+        unlink(corners_[t + k], t + k);
+        corners_[t + k] = kEnd;
+      }
+      --n_triangles_;
+    } else {
+      corners_[c] = v;
+      last = c;
+    }
+    c = after;
+  }
+  if (last != kEnd) {
+    next_[last] = head_[v];
+    head_[v] = head_[u];
+  }
+  head_[u] = kEnd;
+}
+
+std::vector<Triangle> CollapseMesh::triangles() const {
+  std::vector<Triangle> out;
+  out.reserve(n_triangles_);
+  for (std::size_t c = 0; c < corners_.size(); c += 3)
+    if (corners_[c] != kEnd) out.push_back({corners_[c], corners_[c + 1], corners_[c + 2]});
+  return out;
+}
+
+}  // namespace viewcell

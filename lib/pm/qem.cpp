@@ -1,0 +1,67 @@
+#include "pm/qem.h"
+
+#include <algorithm>
+#include <tuple>
+
+namespace viewcell {
+namespace {
+
+// Boundary edges count as this many times their squared length in area: enough to keep a boundary's
+// shape, not so much that it is never simplified [Garland 1999 3.4.1].
+constexpr double kBoundaryWeight = 10;
+
+struct EdgeUse {
+  std::uint32_t a, b;  // a < b
+  std::uint32_t triangle;
+  bool operator<(const EdgeUse& e) const {
+    return std::tie(a, b, triangle) < std::tie(e.a, e.b, e.triangle);
+  }
+};
+
+// The edges that belong to exactly one triangle, sorted.
+std::vector<EdgeUse> find_boundary_edges(std::span<const Triangle> triangles) {
+  std::vector<EdgeUse> uses;
+  uses.reserve(3 * triangles.size());
+  for (std::uint32_t t = 0; t < triangles.size(); ++t)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto [a, b] = std::minmax(triangles[t][k], triangles[t][(k + 1) % 3]);
+      uses.push_back({a, b, t});
+    }
+  std::sort(uses.begin(), uses.end());
+  std::vector<EdgeUse> boundary;
+  for (std::size_t i = 0, j = 0; i < uses.size(); i = j) {
+    while (j < uses.size() && uses[j].a == uses[i].a && uses[j].b == uses[i].b) ++j;
+    if (j - i == 1) boundary.push_back(uses[i]);
+  }
+  return boundary;
+}
+
+}  // namespace
+
+QemMetric::QemMetric(std::span<const glm::vec3> positions, std::span<const Triangle> triangles)
+    : positions_(positions), quadrics_(positions.size()) {
+  Box box;
+  for (const glm::vec3& p : positions) box.add(p);
+  centre_ = positions.empty() ? glm::dvec3(0) : box.centre();
+  const auto at = [&](std::uint32_t v) { return glm::dvec3(positions[v]) - centre_; };
+  const auto area_vector = [&](const Triangle& t) {
+    return 0.5 * glm::cross(at(t[1]) - at(t[0]), at(t[2]) - at(t[0]));
+  };
+  for (const Triangle& t : triangles) {
+    const glm::dvec3 normal = area_vector(t);
+    const double area = glm::length(normal);
+    if (!(area > 0)) continue;
+    for (const std::uint32_t v : t) quadrics_[v].add_plane(normal / area, at(v), area / 3);
+  }
+  for (const EdgeUse& edge : find_boundary_edges(triangles)) {
+    const glm::dvec3 along = at(edge.b) - at(edge.a);
+    const glm::dvec3 across = glm::cross(along, area_vector(triangles[edge.triangle]));
+    const double length = glm::length(across);
+    if (!(length > 0)) continue;
+    const double weight = kBoundaryWeight * glm::dot(along, along) / 6;
+    for (const std::uint32_t v : {edge.a, edge.b})
+      quadrics_[v].add_plane(across / length, at(v), weight);
+  }
+}
+
+}  // namespace viewcell
