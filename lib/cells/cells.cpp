@@ -1,0 +1,147 @@
+#include "cells/cells.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+
+namespace viewcell {
+namespace {
+
+constexpr const char* kFormat = "viewcell-cells";
+
+// How far the near plane's corner is from the eye: the eye may stand on the cell's edge.
+double near_corner_distance(double near) {
+  const double half = std::tan(glm::radians(kFovYDeg) / 2);
+  return near * std::sqrt(1 + 2 * half * half);
+}
+
+ConvexPolygon make_footprint(const Scene& scene, const SceneObject& object) {
+  std::vector<glm::dvec2> points;
+  for (const glm::vec3& p : scene.mesh_of(object).mesh.positions)
+    points.emplace_back(object.world_from_model(glm::dvec3(p)));
+  return convex_hull(std::move(points));
+}
+
+std::vector<ObjectId> read_inside(const JsonCursor& cursor, std::size_t n_objects) {
+  std::vector<ObjectId> inside;
+  const std::size_t n = cursor.size(n_objects);
+  for (std::size_t i = 0; i < n; ++i) {
+    const auto id = cursor.at(i).integer(0, static_cast<std::int64_t>(n_objects) - 1);
+    inside.push_back(ObjectId(id));
+    if (i > 0 && inside[i] <= inside[i - 1]) cursor.at(i).fail("is not in ascending order");
+  }
+  return inside;
+}
+
+Json format_cell(const CellSet& cells, CellId cell) {
+  const HexPlace place = place_of(cells.grid, cell);
+  const glm::dvec2 centre = centre_of(cells.grid, place);
+  Json neighbours = Json::array(), inside = Json::array();
+  for (int face = 0; face < 6; ++face) {
+    const auto next = cell_at(cells.grid, neighbour(place, face));
+    neighbours.push_back(next ? static_cast<int>(*next) : -1);
+  }
+  for (const ObjectId id : cells.inside[index(cell)]) inside.push_back(static_cast<int>(id));
+  return {{"id", static_cast<int>(cell)},
+          {"centre", {centre.x, centre.y}},
+          {"neighbours", neighbours},
+          {"inside", inside}};
+}
+
+}  // namespace
+
+std::vector<ConvexPolygon> make_footprints(const Scene& scene) {
+  std::vector<ConvexPolygon> footprints;
+  for (const SceneObject& object : scene.objects)
+    footprints.push_back(make_footprint(scene, object));
+  return footprints;
+}
+
+CellSet make_cells(const Scene& scene, double size, const EyeHeight& eye_height) {
+  CellSet cells;
+  cells.grid = make_grid(scene.area, size);
+  cells.eye_height = eye_height;
+  cells.scene_hash = scene.hash;
+  cells.n_objects = scene.objects.size();
+  const auto footprints = make_footprints(scene);
+  const double margin = near_corner_distance(cells.near);
+  for (int i = 0; i < cells.grid.n_cells(); ++i) {
+    const ConvexPolygon hexagon = corners_of(cells.grid, place_of(cells.grid, CellId(i)));
+    std::vector<ObjectId> inside;
+    for (std::size_t o = 0; o < footprints.size(); ++o)
+      if (distance(hexagon, footprints[o]) <= margin) inside.push_back(ObjectId(o));
+    cells.inside.push_back(std::move(inside));
+  }
+  return cells;
+}
+
+bool is_inside(const CellSet& cells, CellId cell, ObjectId object) {
+  const auto& inside = cells.inside[index(cell)];
+  return std::binary_search(inside.begin(), inside.end(), object);
+}
+
+std::vector<glm::dvec3> prism_of(const CellSet& cells, CellId cell) {
+  std::vector<glm::dvec3> corners;
+  for (const double z : {cells.eye_height.lo, cells.eye_height.hi})
+    for (const glm::dvec2& p : corners_of(cells.grid, place_of(cells.grid, cell)))
+      corners.emplace_back(p, z);
+  return corners;
+}
+
+glm::dvec3 eye_of(const CellSet& cells, CentreId centre) {
+  return {centre_of(cells.grid, place_of(cells.grid, centre)), cells.eye_height.middle()};
+}
+
+CellSet read_cells(const std::filesystem::path& file) {
+  const Json json = read_json(file, kFormat, 1);
+  const JsonCursor root(json, file);
+  CellSet cells;
+  cells.scene_hash = root.at("scene_hash").string();
+  cells.n_objects = static_cast<std::size_t>(root.at("objects").integer(0, 1 << 24));
+  const auto origin = root.at("origin").numbers(2, -1e9, 1e9);
+  cells.grid.origin = {origin[0], origin[1]};
+  cells.grid.size = root.at("size").number(1e-6, 1e9);
+  cells.grid.columns = static_cast<int>(root.at("columns").integer(1, 10000));
+  cells.grid.rows = static_cast<int>(root.at("rows").integer(1, 10000));
+  const auto height = root.at("eye_height").numbers(2, -1e9, 1e9);
+  cells.eye_height = {height[0], height[1]};
+  if (height[0] > height[1]) root.at("eye_height").fail("is not LO, HI with LO <= HI");
+  cells.near = root.at("near").number(1e-9, 1e6);
+  const JsonCursor list = root.at("cells");
+  if (list.size() != static_cast<std::size_t>(cells.grid.n_cells()))
+    list.fail("has " + std::to_string(list.size()) + " cells, not columns x rows");
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    const JsonCursor cell = list.at(i);
+    cell.at("id").integer(static_cast<std::int64_t>(i), static_cast<std::int64_t>(i));
+    cells.inside.push_back(read_inside(cell.at("inside"), cells.n_objects));
+  }
+  return cells;
+}
+
+Json format_cells(const CellSet& cells, const Json& provenance) {
+  Json list = Json::array();
+  for (int i = 0; i < cells.grid.n_cells(); ++i) list.push_back(format_cell(cells, CellId(i)));
+  return {{"format", kFormat},
+          {"version", 1},
+          {"made_by", provenance},
+          {"scene_hash", cells.scene_hash},
+          {"objects", cells.n_objects},
+          {"size", cells.grid.size},
+          {"origin", {cells.grid.origin.x, cells.grid.origin.y}},
+          {"columns", cells.grid.columns},
+          {"rows", cells.grid.rows},
+          {"eye_height", {cells.eye_height.lo, cells.eye_height.hi}},
+          {"near", cells.near},
+          {"cells", list}};
+}
+
+void check_cells_of_scene(const CellSet& cells, const Scene& scene,
+                          const std::filesystem::path& file) {
+  if (cells.scene_hash != scene.hash)
+    throw InputError(file.string(), "scene_hash",
+                     "was made for another scene (" + cells.scene_hash + ", not " + scene.hash +
+                         "); run hexcells again");
+}
+
+}  // namespace viewcell

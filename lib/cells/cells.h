@@ -1,0 +1,59 @@
+// View cells of a scene: the grid, the eye's heights, and what stands inside each cell.
+#pragma once
+
+#include <filesystem>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "cells/grid.h"
+#include "scene/camera.h"
+
+namespace viewcell {
+
+struct EyeHeight {
+  double lo = 16, hi = 20;  ///< above z = 0, the park's units
+  double middle() const { return 0.5 * (lo + hi); }
+};
+
+struct CellSet {
+  HexGrid grid;
+  EyeHeight eye_height;
+  double near = kNear;     ///< distance of the player's near plane
+  std::string scene_hash;  ///< of the scene that it was made for
+  std::size_t n_objects = 0;
+  std::vector<std::vector<ObjectId>> inside;  ///< per cell, ascending
+};
+
+/// The convex hulls of the objects' footprints in the x-y plane, one an object.
+std::vector<ConvexPolygon> make_footprints(const Scene& scene);
+
+/// Lays the grid over the scene's area. An object is inside a cell when its footprint's hull meets
+/// the closed hexagon widened by the corner of the near plane (DESIGN, Conventions).
+CellSet make_cells(const Scene& scene, double size, const EyeHeight& eye_height);
+
+bool is_inside(const CellSet& cells, CellId cell, ObjectId object);
+
+/// The corner points of the prism in which the eye moves: six at the low eye height, six at the
+/// high.
+std::vector<glm::dvec3> prism_of(const CellSet& cells, CellId cell);
+/// The point that a centre's captures are seen from: mid-height.
+glm::dvec3 eye_of(const CellSet& cells, CentreId centre);
+
+/// cells.json, read and written.
+CellSet read_cells(const std::filesystem::path& file);
+Json format_cells(const CellSet& cells, const Json& provenance);
+/// Throws InputError unless the cells were made for this scene.
+void check_cells_of_scene(const CellSet& cells, const Scene& scene,
+                          const std::filesystem::path& file);
+
+/// Parses --cells: "all", "3,7,10-19", "@FILE" (such a list in a file) or "path:path.json" (the
+/// cells that a camera path passes through), then keeps slice i of n ("I/N", 1 <= I <= N; empty:
+/// all) by turns. Throws UsageError for a malformed list, InputError for a cell out of range.
+std::vector<CellId> select_cells(const CellSet& cells, const std::string& list,
+                                 const std::string& slice = "");
+
+/// The cells whose captures or meshes those cells need: their closed neighbourhoods' centres.
+std::vector<CentreId> centres_of(const CellSet& cells, const std::vector<CellId>& list);
+
+}  // namespace viewcell

@@ -1,0 +1,81 @@
+#include "cells/convex2.h"
+
+#include <algorithm>
+#include <limits>
+#include <tuple>
+
+namespace viewcell {
+namespace {
+
+double cross(const glm::dvec2& o, const glm::dvec2& a, const glm::dvec2& b) {
+  return (a.x - o.x) * (b.y - o.y) - (a.y - o.y) * (b.x - o.x);
+}
+
+double distance_to_segment(const glm::dvec2& p, const glm::dvec2& a, const glm::dvec2& b) {
+  const glm::dvec2 ab = b - a;
+  const double squared = glm::dot(ab, ab);
+  const double t = squared > 0 ? std::clamp(glm::dot(p - a, ab) / squared, 0.0, 1.0) : 0;
+  return glm::length(p - (a + t * ab));
+}
+
+double distance_to_edges(const glm::dvec2& p, const ConvexPolygon& polygon) {
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < polygon.size(); ++i)
+    least = std::min(least, distance_to_segment(p, polygon[i], polygon[(i + 1) % polygon.size()]));
+  return least;
+}
+
+// Whether some edge of `a` has all of `b` strictly outside.
+bool is_separated_by_edge_of(const ConvexPolygon& a, const ConvexPolygon& b) {
+  for (std::size_t i = 0; a.size() > 2 && i < a.size(); ++i) {
+    const glm::dvec2 from = a[i], to = a[(i + 1) % a.size()];
+    if (std::all_of(b.begin(), b.end(), [&](const auto& p) { return cross(from, to, p) < 0; }))
+      return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+ConvexPolygon convex_hull(std::vector<glm::dvec2> points) {
+  const auto before = [](const glm::dvec2& a, const glm::dvec2& b) {
+    return std::tie(a.x, a.y) < std::tie(b.x, b.y);
+  };
+  std::sort(points.begin(), points.end(), before);
+  points.erase(std::unique(points.begin(), points.end()), points.end());
+  if (points.size() < 3) return points;
+  ConvexPolygon hull;
+  const auto add_chain = [&](auto first, auto last) {
+    const std::size_t start = hull.size();
+    for (auto p = first; p != last; ++p) {
+      while (hull.size() >= start + 2 && cross(hull[hull.size() - 2], hull.back(), *p) <= 0)
+        hull.pop_back();
+      hull.push_back(*p);
+    }
+    hull.pop_back();  // the first of the other chain
+  };
+  add_chain(points.begin(), points.end());
+  add_chain(points.rbegin(), points.rend());
+  return hull;
+}
+
+bool contains(const ConvexPolygon& polygon, const glm::dvec2& p) {
+  if (polygon.size() < 3) return !polygon.empty() && distance_to_edges(p, polygon) == 0;
+  for (std::size_t i = 0; i < polygon.size(); ++i)
+    if (cross(polygon[i], polygon[(i + 1) % polygon.size()], p) < 0) return false;
+  return true;
+}
+
+// Two convex polygons that do not meet are nearest at a corner of one of them.
+double distance(const ConvexPolygon& a, const ConvexPolygon& b) {
+  if (a.empty() || b.empty()) return std::numeric_limits<double>::infinity();
+  const bool full = a.size() > 2 && b.size() > 2;
+  if (full && !is_separated_by_edge_of(a, b) && !is_separated_by_edge_of(b, a)) return 0;
+  if (!full && (contains(a, b[0]) || contains(b, a[0]))) return 0;
+  double least = std::numeric_limits<double>::infinity();
+  for (const glm::dvec2& p : a) least = std::min(least, distance_to_edges(p, b));
+  for (const glm::dvec2& p : b) least = std::min(least, distance_to_edges(p, a));
+  return least;
+}
+
+}  // namespace viewcell

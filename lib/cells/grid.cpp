@@ -1,0 +1,122 @@
+#include "cells/grid.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+
+namespace viewcell {
+namespace {
+
+const double kSqrt3 = std::sqrt(3.0);
+constexpr int kMostCellsAcross = 2000;
+
+bool is_odd(int column) {
+  return (column & 1) != 0;
+}
+
+}  // namespace
+
+HexGrid make_grid(const Area& area, double size) {
+  VIEWCELL_CHECK(size > 0, size);
+  // A column covers every y of the area up to size / 2 on each side of its centre, a row of an even
+  // column sqrt(3)/2 size.
+  const auto count = [](double length, double covered, double step) {
+    const double n = std::ceil((length - covered) / step - 1e-12);
+    if (!(n < kMostCellsAcross))
+      throw UsageError("cells of that size are too many: more than " +
+                       std::to_string(kMostCellsAcross) + " across the area");
+    return 1 + std::max(0, static_cast<int>(n));
+  };
+  HexGrid grid;
+  grid.origin = area.lo;
+  grid.size = size;
+  grid.columns = count(area.hi.x - area.lo.x, size / 2, 1.5 * size);
+  grid.rows = count(area.hi.y - area.lo.y, kSqrt3 / 2 * size, kSqrt3 * size);
+  return grid;
+}
+
+glm::dvec2 centre_of(const HexGrid& grid, HexPlace place) {
+  const double half = is_odd(place.column) ? 0.5 : 0.0;
+  return grid.origin + grid.size * glm::dvec2(1.5 * place.column, kSqrt3 * (place.row + half));
+}
+
+ConvexPolygon corners_of(const HexGrid& grid, HexPlace place) {
+  const glm::dvec2 c = centre_of(grid, place);
+  const double s = grid.size, h = kSqrt3 / 2 * s;
+  return {c + glm::dvec2(s, 0), c + glm::dvec2(s / 2, h),   c + glm::dvec2(-s / 2, h),
+          c - glm::dvec2(s, 0), c + glm::dvec2(-s / 2, -h), c + glm::dvec2(s / 2, -h)};
+}
+
+// A hexagon is its centre's Voronoi cell, so the nearest centre decides; it is among the columns
+// around the point's.
+HexPlace place_at(const HexGrid& grid, const glm::dvec2& point) {
+  const glm::dvec2 p = (point - grid.origin) / grid.size;
+  const int column = static_cast<int>(std::floor(p.x / 1.5));
+  HexPlace best;
+  double least = 1e300;
+  for (int c = column; c <= column + 1; ++c) {
+    const int row = static_cast<int>(std::floor(p.y / kSqrt3 - (is_odd(c) ? 0.5 : 0.0)));
+    for (int r = row; r <= row + 1; ++r) {
+      const glm::dvec2 d = point - centre_of(grid, {c, r});
+      if (const double squared = glm::dot(d, d); squared < least) {
+        least = squared;
+        best = {c, r};
+      }
+    }
+  }
+  return best;
+}
+
+HexPlace neighbour(HexPlace place, int face) {
+  const int up = is_odd(place.column) ? 1 : 0;  // an odd column's slanted neighbours stand higher
+  switch (face) {
+    case 0:
+      return {place.column + 1, place.row + up};
+    case 1:
+      return {place.column, place.row + 1};
+    case 2:
+      return {place.column - 1, place.row + up};
+    case 3:
+      return {place.column - 1, place.row + up - 1};
+    case 4:
+      return {place.column, place.row - 1};
+    case 5:
+      return {place.column + 1, place.row + up - 1};
+    default:
+      throw_bug(__FILE__, __LINE__, "face in 0..5", face);
+  }
+}
+
+HexPlace place_of(const HexGrid& grid, CellId cell) {
+  const int i = static_cast<int>(cell);
+  return {i % grid.columns, i / grid.columns};
+}
+
+HexPlace place_of(const HexGrid& grid, CentreId centre) {
+  const int i = static_cast<int>(centre);
+  return {i % (grid.columns + 2) - 1, i / (grid.columns + 2) - 1};
+}
+
+std::optional<CellId> cell_at(const HexGrid& grid, HexPlace place) {
+  if (place.column < 0 || place.column >= grid.columns) return {};
+  if (place.row < 0 || place.row >= grid.rows) return {};
+  return CellId(place.row * grid.columns + place.column);
+}
+
+std::optional<CentreId> centre_at(const HexGrid& grid, HexPlace place) {
+  if (place.column < -1 || place.column > grid.columns) return {};
+  if (place.row < -1 || place.row > grid.rows) return {};
+  return CentreId((place.row + 1) * (grid.columns + 2) + place.column + 1);
+}
+
+std::array<CentreId, kViews> views_of(const HexGrid& grid, CellId cell) {
+  const HexPlace place = place_of(grid, cell);
+  std::array<CentreId, kViews> views{};
+  views[0] = *centre_at(grid, place);
+  for (int face = 0; face < 6; ++face)
+    views[static_cast<std::size_t>(face) + 1] = *centre_at(grid, neighbour(place, face));
+  return views;
+}
+
+}  // namespace viewcell

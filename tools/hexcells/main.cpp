@@ -1,0 +1,79 @@
+// hexcells: lays hexagonal view cells over a scene.
+#include "cells/cells.h"
+
+#include "base/error.h"
+#include "base/file.h"
+#include "cells/map.h"
+#include "common/provenance.h"
+#include "common/tool.h"
+
+namespace viewcell {
+namespace {
+
+struct Options {
+  std::string scene_file;
+  double size = 50;
+  std::string eye_height = "16:20";
+  std::string svg_file;
+  std::string path_file;
+};
+
+EyeHeight parse_eye_height(const std::string& text) {
+  EyeHeight height;
+  char rest = 0;
+  if (std::sscanf(text.c_str(), "%lf:%lf%c", &height.lo, &height.hi, &rest) != 2 ||
+      !(height.lo <= height.hi) || !(std::abs(height.lo) < 1e6) || !(std::abs(height.hi) < 1e6))
+    throw UsageError("--eye-height: '" + text + "' is not LO:HI with LO <= HI");
+  return height;
+}
+
+void declare(Tool& tool, Options& options) {
+  tool.app().add_option("scene", options.scene_file, "scene.json")->required();
+  tool.app()
+      .add_option("--size", options.size, "circumradius of a cell")
+      ->capture_default_str()
+      ->check(CLI::Range(1e-3, 1e6));
+  tool.app()
+      .add_option("--eye-height", options.eye_height, "range of the eye's heights, LO:HI")
+      ->capture_default_str();
+  tool.app().add_option("--svg", options.svg_file, "draw a map of cells and objects");
+  tool.app().add_option("--path", options.path_file, "path.json to draw into the map");
+  tool.add_output("cells.json to write (-: stdout)");
+}
+
+int run(const Tool& tool, const Options& options) {
+  const EyeHeight eye_height = parse_eye_height(options.eye_height);
+  const Scene scene = read_scene(options.scene_file, {.n_threads = tool.common().n_threads});
+  const CellSet cells = make_cells(scene, options.size, eye_height);
+  const Json made_by = make_provenance(
+      tool, {{"size", options.size}, {"eye_height", options.eye_height}}, {{"scene", scene.hash}});
+  if (!options.svg_file.empty()) {
+    CameraPath path;
+    if (!options.path_file.empty()) path = read_path(options.path_file);
+    write_file(options.svg_file,
+               draw_map(scene, cells, options.path_file.empty() ? nullptr : &path));
+  }
+  write_file(tool.common().output, format_json(format_cells(cells, made_by)));
+  std::size_t n_inside = 0;
+  for (const auto& inside : cells.inside) n_inside += inside.size();
+  tool.report({{"columns", cells.grid.columns},
+               {"rows", cells.grid.rows},
+               {"cells", cells.grid.n_cells()},
+               {"size", cells.grid.size},
+               {"objects", scene.objects.size()},
+               {"inside_mean", static_cast<double>(n_inside) / cells.grid.n_cells()}});
+  tool.say(std::to_string(cells.grid.columns) + " x " + std::to_string(cells.grid.rows) +
+           " cells over " + std::to_string(scene.objects.size()) + " objects");
+  return 0;
+}
+
+}  // namespace
+}  // namespace viewcell
+
+int main(int argc, char** argv) {
+  viewcell::Tool tool("hexcells", "Lay hexagonal view cells over a scene.",
+                      "hexcells park/scene.json --size 50 -o cells.json --svg map.svg");
+  viewcell::Options options;
+  viewcell::declare(tool, options);
+  return tool.main(argc, argv, [&] { return viewcell::run(tool, options); });
+}
