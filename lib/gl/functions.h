@@ -1,0 +1,111 @@
+// The GL functions in the table of gl/gl.h, as macros over them.
+#pragma once
+
+// X(Name, NAME): the function glName, whose type is PFNGLNAMEPROC.
+#define VIEWCELL_GL_STATE(X)      \
+  X(GetString, GETSTRING)         \
+  X(GetIntegerv, GETINTEGERV)     \
+  X(GetInteger64v, GETINTEGER64V) \
+  X(GetError, GETERROR)           \
+  X(Enable, ENABLE)               \
+  X(Disable, DISABLE)             \
+  X(Finish, FINISH)               \
+  X(Flush, FLUSH)                 \
+  X(Viewport, VIEWPORT)           \
+  X(Scissor, SCISSOR)             \
+  X(ClearColor, CLEARCOLOR)       \
+  X(ClearDepth, CLEARDEPTH)       \
+  X(Clear, CLEAR)                 \
+  X(ClipControl, CLIPCONTROL)     \
+  X(DepthFunc, DEPTHFUNC)         \
+  X(DepthMask, DEPTHMASK)         \
+  X(ColorMask, COLORMASK)         \
+  X(CullFace, CULLFACE)           \
+  X(FrontFace, FRONTFACE)         \
+  X(PolygonMode, POLYGONMODE)     \
+  X(PolygonOffset, POLYGONOFFSET) \
+  X(LineWidth, LINEWIDTH)         \
+  X(BlendFunc, BLENDFUNC)         \
+  X(PixelStorei, PIXELSTOREI)     \
+  X(ReadPixels, READPIXELS)
+
+#define VIEWCELL_GL_OBJECTS(X)                                \
+  X(CreateBuffers, CREATEBUFFERS)                             \
+  X(DeleteBuffers, DELETEBUFFERS)                             \
+  X(BindBuffer, BINDBUFFER)                                   \
+  X(BindBufferBase, BINDBUFFERBASE)                           \
+  X(BindBufferRange, BINDBUFFERRANGE)                         \
+  X(NamedBufferStorage, NAMEDBUFFERSTORAGE)                   \
+  X(NamedBufferSubData, NAMEDBUFFERSUBDATA)                   \
+  X(GetNamedBufferSubData, GETNAMEDBUFFERSUBDATA)             \
+  X(MapNamedBufferRange, MAPNAMEDBUFFERRANGE)                 \
+  X(UnmapNamedBuffer, UNMAPNAMEDBUFFER)                       \
+  X(CreateTextures, CREATETEXTURES)                           \
+  X(DeleteTextures, DELETETEXTURES)                           \
+  X(BindTextureUnit, BINDTEXTUREUNIT)                         \
+  X(TextureStorage2D, TEXTURESTORAGE2D)                       \
+  X(TextureStorage3D, TEXTURESTORAGE3D)                       \
+  X(TextureSubImage2D, TEXTURESUBIMAGE2D)                     \
+  X(TextureSubImage3D, TEXTURESUBIMAGE3D)                     \
+  X(CompressedTextureSubImage2D, COMPRESSEDTEXTURESUBIMAGE2D) \
+  X(CompressedTextureSubImage3D, COMPRESSEDTEXTURESUBIMAGE3D) \
+  X(TextureParameteri, TEXTUREPARAMETERI)                     \
+  X(TextureBuffer, TEXTUREBUFFER)                             \
+  X(TextureBufferRange, TEXTUREBUFFERRANGE)                   \
+  X(GetTextureImage, GETTEXTUREIMAGE)                         \
+  X(CreateFramebuffers, CREATEFRAMEBUFFERS)                   \
+  X(DeleteFramebuffers, DELETEFRAMEBUFFERS)                   \
+  X(BindFramebuffer, BINDFRAMEBUFFER)                         \
+  X(NamedFramebufferTexture, NAMEDFRAMEBUFFERTEXTURE)         \
+  X(NamedFramebufferDrawBuffers, NAMEDFRAMEBUFFERDRAWBUFFERS) \
+  X(NamedFramebufferReadBuffer, NAMEDFRAMEBUFFERREADBUFFER)   \
+  X(CheckNamedFramebufferStatus, CHECKNAMEDFRAMEBUFFERSTATUS) \
+  X(ClearNamedFramebufferfv, CLEARNAMEDFRAMEBUFFERFV)         \
+  X(ClearNamedFramebufferuiv, CLEARNAMEDFRAMEBUFFERUIV)       \
+  X(CreateVertexArrays, CREATEVERTEXARRAYS)                   \
+  X(DeleteVertexArrays, DELETEVERTEXARRAYS)                   \
+  X(BindVertexArray, BINDVERTEXARRAY)                         \
+  X(EnableVertexArrayAttrib, ENABLEVERTEXARRAYATTRIB)         \
+  X(VertexArrayAttribFormat, VERTEXARRAYATTRIBFORMAT)         \
+  X(VertexArrayAttribIFormat, VERTEXARRAYATTRIBIFORMAT)       \
+  X(VertexArrayAttribBinding, VERTEXARRAYATTRIBBINDING)       \
+  X(VertexArrayVertexBuffer, VERTEXARRAYVERTEXBUFFER)         \
+  X(VertexArrayElementBuffer, VERTEXARRAYELEMENTBUFFER)       \
+  X(VertexArrayBindingDivisor, VERTEXARRAYBINDINGDIVISOR)
+
+#define VIEWCELL_GL_DRAWING(X)                                                                \
+  X(CreateShader, CREATESHADER)                                                               \
+  X(ShaderSource, SHADERSOURCE)                                                               \
+  X(CompileShader, COMPILESHADER)                                                             \
+  X(GetShaderiv, GETSHADERIV)                                                                 \
+  X(GetShaderInfoLog, GETSHADERINFOLOG)                                                       \
+  X(DeleteShader, DELETESHADER)                                                               \
+  X(CreateProgram, CREATEPROGRAM)                                                             \
+  X(AttachShader, ATTACHSHADER)                                                               \
+  X(LinkProgram, LINKPROGRAM)                                                                 \
+  X(GetProgramiv, GETPROGRAMIV)                                                               \
+  X(GetProgramInfoLog, GETPROGRAMINFOLOG)                                                     \
+  X(DeleteProgram, DELETEPROGRAM)                                                             \
+  X(UseProgram, USEPROGRAM)                                                                   \
+  X(GetUniformLocation, GETUNIFORMLOCATION)                                                   \
+  X(ProgramUniform1i, PROGRAMUNIFORM1I)                                                       \
+  X(ProgramUniform1ui, PROGRAMUNIFORM1UI)                                                     \
+  X(ProgramUniform1f, PROGRAMUNIFORM1F)                                                       \
+  X(ProgramUniform2f, PROGRAMUNIFORM2F)                                                       \
+  X(ProgramUniform3fv, PROGRAMUNIFORM3FV)                                                     \
+  X(ProgramUniform4fv, PROGRAMUNIFORM4FV)                                                     \
+  X(ProgramUniformMatrix3fv, PROGRAMUNIFORMMATRIX3FV)                                         \
+  X(ProgramUniformMatrix4fv, PROGRAMUNIFORMMATRIX4FV)                                         \
+  X(VertexAttrib4fv, VERTEXATTRIB4FV)                                                         \
+  X(DrawArrays, DRAWARRAYS)                                                                   \
+  X(DrawElements, DRAWELEMENTS)                                                               \
+  X(DrawElementsBaseVertex, DRAWELEMENTSBASEVERTEX)                                           \
+  X(DrawElementsInstancedBaseVertexBaseInstance, DRAWELEMENTSINSTANCEDBASEVERTEXBASEINSTANCE) \
+  X(MultiDrawElements, MULTIDRAWELEMENTS)                                                     \
+  X(MultiDrawElementsBaseVertex, MULTIDRAWELEMENTSBASEVERTEX)                                 \
+  X(MultiDrawElementsIndirect, MULTIDRAWELEMENTSINDIRECT)                                     \
+  X(CreateQueries, CREATEQUERIES)                                                             \
+  X(DeleteQueries, DELETEQUERIES)                                                             \
+  X(BeginQuery, BEGINQUERY)                                                                   \
+  X(EndQuery, ENDQUERY)                                                                       \
+  X(GetQueryObjectui64v, GETQUERYOBJECTUI64V)
