@@ -1,0 +1,31 @@
+// The `embree` engine: captures by ray casting. The only user of Embree in this room.
+#pragma once
+
+#include <memory>
+
+#include "capture/tile.h"
+#include "scene/scene.h"
+
+namespace viewcell {
+
+/// Bounding hierarchies of a scene's meshes, one a mesh, shared by its instances.
+/// capture() may be called from many threads at once.
+class RayCapture {
+ public:
+  /// The scene must outlive this. Throws MachineError when Embree cannot start.
+  RayCapture(const Scene& scene, int n_threads);
+  ~RayCapture();
+  RayCapture(const RayCapture&) = delete;
+  RayCapture& operator=(const RayCapture&) = delete;
+
+  /// One ray a pixel centre; the nearest front-facing (or double-sided) triangle of that object
+  /// alone. Colour and depth outside the object are left zero (fill_tile fills them).
+  CaptureTile capture(ObjectId object, const CaptureView& view, const Crop& crop) const;
+
+ private:
+  struct Device;
+  const Scene& scene_;
+  std::unique_ptr<Device> device_;
+};
+
+}  // namespace viewcell

@@ -1,0 +1,74 @@
+#include "capture/view.h"
+
+#include <cmath>
+
+namespace viewcell {
+namespace {
+
+// A face width spans 60 degrees seen from the cell's centre.
+double focal_of(int resolution_px) {
+  return 0.5 * resolution_px / std::tan(glm::radians(30.0));
+}
+
+CaptureView make_view(const glm::dvec3& eye, const glm::dvec3& forward, int resolution_px) {
+  CaptureView view;
+  view.eye = eye;
+  view.forward = forward;
+  view.right = glm::normalize(glm::cross(forward, glm::dvec3(0, 0, 1)));
+  view.up = glm::cross(view.right, forward);
+  view.focal_px = focal_of(resolution_px);
+  view.source_px = resolution_px;
+  return view;
+}
+
+// The cosine of the largest angle between the axis and a point.
+double least_cosine(const CaptureView& view, std::span<const glm::dvec3> points) {
+  double least = 1;
+  for (const glm::dvec3& p : points) {
+    const glm::dvec3 d = p - view.eye;
+    const double length = glm::length(d);
+    least = std::min(least, length > 0 ? glm::dot(d, view.forward) / length : -1.0);
+  }
+  return least;
+}
+
+Crop crop_of(const CaptureView& view, std::span<const glm::dvec3> points) {
+  glm::dvec2 lo(1e300), hi(-1e300);
+  for (const glm::dvec3& p : points) {
+    const glm::dvec2 at(view.project(p));
+    lo = glm::min(lo, at);
+    hi = glm::max(hi, at);
+  }
+  Crop crop;
+  crop.x = static_cast<int>(std::floor(lo.x)) - kCropMargin_px;
+  crop.y = static_cast<int>(std::floor(lo.y)) - kCropMargin_px;
+  crop.width_px = static_cast<int>(std::ceil(hi.x)) + kCropMargin_px - crop.x;
+  crop.height_px = static_cast<int>(std::ceil(hi.y)) + kCropMargin_px - crop.y;
+  return crop;
+}
+
+glm::dvec3 middle_of(std::span<const glm::dvec3> points) {
+  glm::dvec3 lo(1e300), hi(-1e300);
+  for (const glm::dvec3& p : points) lo = glm::min(lo, p), hi = glm::max(hi, p);
+  return 0.5 * (lo + hi);
+}
+
+}  // namespace
+
+std::optional<ViewedObject> choose_view(const glm::dvec3& eye, std::span<const glm::dvec3> points,
+                                        int resolution_px) {
+  if (points.empty()) return {};
+  const glm::dvec3 toward = middle_of(points) - eye;
+  const double azimuth_deg = glm::degrees(std::atan2(toward.y, toward.x));
+  const double face_rad = glm::radians(60 * std::floor(azimuth_deg / 60) + 30);
+  CaptureView view = make_view(eye, {std::cos(face_rad), std::sin(face_rad), 0}, resolution_px);
+  if (least_cosine(view, points) < std::cos(glm::radians(kTurnDeg))) {
+    const double length = glm::length(toward);
+    if (!(length > 0) || std::abs(toward.z) > 0.99 * length) return {};
+    view = make_view(eye, toward / length, resolution_px);
+    if (least_cosine(view, points) < std::cos(glm::radians(kMostDeg))) return {};
+  }
+  return ViewedObject{view, crop_of(view, points)};
+}
+
+}  // namespace viewcell
