@@ -1,0 +1,33 @@
+// Pictures read from and written to files.
+#pragma once
+
+#include <filesystem>
+
+#include "image/image.h"
+
+namespace viewcell {
+
+/// Reads a PNG, JPEG, EXR, TIFF or WebP, told by its first bytes ("-": standard input), as 8-bit
+/// sRGB with straight alpha. Gray and gray with alpha are expanded; without alpha it is 255. Float
+/// and half samples are taken as linear: clamped to [0, 1], encoded as sRGB, their alpha as it is.
+/// An EXR gives its data window. The first picture of several.
+///
+/// The size is checked before pixels are read (image/header.h). Throws InputError naming the file.
+/// Safe from many threads at once. Known limit: OpenImageIO hands out a WebP's colour multiplied by
+/// alpha, so where alpha is small it comes back coarse, and 0 where alpha is 0.
+ImageRgba8 read_image_rgba8(const std::filesystem::path& file);
+
+/// Linear light to the sRGB code value, rounded; clamps to [0, 1] and takes NaN for 0.
+std::uint8_t srgb8_from_linear(float linear);
+
+enum class PngAlpha {
+  keep,
+  drop,  ///< write RGB only: for pictures to look at, whose ground would show as transparent
+};
+
+/// Writes a PNG, whole or not at all ("-": standard output). The same pixels give the same bytes:
+/// no date, no software. Throws MachineError. Safe from many threads at once.
+void write_png(const std::filesystem::path& file, const ImageRgba8& image,
+               PngAlpha alpha = PngAlpha::keep);
+
+}  // namespace viewcell
