@@ -1,0 +1,182 @@
+#include "bake/cell_mesh.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "base/parallel.h"
+#include "capture/view.h"
+#include "cells/self_occluding.h"
+#include "pm/simplify.h"
+#include "visibility/regional.h"
+
+namespace viewcell {
+namespace {
+
+double focal_of(int resolution_px) {
+  return 0.5 * resolution_px / std::tan(glm::radians(30.0));
+}
+
+// The ball around the cell's prism.
+struct Ball {
+  glm::dvec3 centre{0};
+  double radius = 0;
+};
+
+Ball ball_of(const CellSet& cells, CellId cell) {
+  const double half_height = 0.5 * (cells.eye_height.hi - cells.eye_height.lo);
+  return {eye_of(cells, views_of(cells.grid, cell)[0]), std::hypot(cells.grid.size, half_height)};
+}
+
+double distance_to(const Box& box, const glm::dvec3& p) {
+  return glm::length(glm::max(glm::max(box.lo - p, p - box.hi), glm::dvec3(0)));
+}
+
+// The coarsest level whose error, seen from the nearest point of the cell, stays below
+// start_error_px.
+const StartLevel& choose_start(const BakeScene& bake, CellId cell, ObjectId id,
+                               const BakeOptions& options) {
+  const SceneObject& object = bake.scene.objects[index(id)];
+  const Ball ball = ball_of(bake.cells, cell);
+  const double distance =
+      std::max(distance_to(bake.boxes[index(id)], ball.centre) - ball.radius, bake.cells.near);
+  const double px_per_unit = focal_of(options.resolution_px) / distance * object.scale;
+  const auto& levels = bake.levels[index(object.mesh)];
+  std::size_t best = 0;
+  for (std::size_t i = 1; i < levels.size(); ++i)
+    if (levels[i].error * px_per_unit < options.start_error_px) best = i;
+  return levels[best];
+}
+
+// The level's vertices in the world.
+ViewVertices place_vertices(const TriMesh& mesh, const SceneObject& object) {
+  ViewVertices out;
+  out.positions.reserve(mesh.positions.size());
+  out.normals.reserve(mesh.positions.size());
+  for (const glm::vec3& p : mesh.positions)
+    out.positions.emplace_back(object.world_from_model(glm::dvec3(p)));
+  for (const glm::vec3& n : mesh.normals) out.normals.emplace_back(object.rotation * glm::dvec3(n));
+  return out;
+}
+
+std::vector<bool> find_back_faces(const BakeScene& bake, CellId cell, const SceneObject& object,
+                                  const std::vector<glm::vec3>& positions,
+                                  const std::vector<Triangle>& triangles) {
+  if (bake.scene.materials[static_cast<std::size_t>(object.material)].double_sided)
+    return std::vector<bool>(triangles.size(), false);  // trap 28
+  TriMesh world;
+  world.positions = positions;
+  return find_regional_back_faces(world, triangles, prism_of(bake.cells, cell));
+}
+
+ViewMetricOptions make_metric_options(const BakeScene& bake, CellId cell, Representation kind,
+                                      const BakeOptions& options) {
+  const Ball ball = ball_of(bake.cells, cell);
+  ViewMetricOptions metric;
+  metric.eyes = {ball.centre};
+  if (kind == Representation::multi_view)  // l': the length as any point of the cell may see it
+    for (const glm::dvec2& corner : corners_of(bake.cells.grid, place_of(bake.cells.grid, cell)))
+      metric.eyes.emplace_back(corner, ball.centre.z);
+  metric.focal_px = focal_of(options.resolution_px);
+  metric.keep_common_views = kind == Representation::multi_view;
+  metric.max_drift_px = options.max_drift_px;
+  metric.region_centre = ball.centre;
+  metric.region_radius = ball.radius;
+  return metric;
+}
+
+// What is left after collapsing and culling, renumbered.
+CellMesh gather(const ViewVertices& all, const std::vector<std::uint32_t>& source_vertex,
+                const std::vector<Triangle>& triangles, const std::vector<bool>& is_culled) {
+  constexpr std::uint32_t kUnused = 0xffffffffu;
+  std::vector<std::uint32_t> place(all.positions.size(), kUnused);
+  CellMesh out;
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    if (is_culled[t]) continue;
+    Triangle renumbered;
+    unsigned views = 0x7f;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t v = triangles[t][k];
+      views &= all.views[v];
+      if (place[v] == kUnused) {
+        place[v] = static_cast<std::uint32_t>(out.source_vertex.size());
+        out.source_vertex.push_back(source_vertex[v]);
+        out.vertices.positions.push_back(all.positions[v]);
+        out.vertices.normals.push_back(all.normals[v]);
+        out.vertices.weights.push_back(all.weights[v]);
+        out.vertices.views.push_back(all.views[v]);
+      }
+      renumbered[k] = place[v];
+    }
+    out.triangles.push_back(renumbered);
+    out.views.push_back(static_cast<std::uint8_t>(views));
+  }
+  return out;
+}
+
+std::vector<StartLevel> build_start_levels(const TriMesh& mesh) {
+  std::vector<StartLevel> out;
+  for (const Level& level : build_levels(mesh)) {
+    SimplifyResult compacted = compact(mesh, level.triangles);
+    out.push_back({std::move(compacted.mesh), std::move(compacted.source_vertex), level.error});
+  }
+  return out;
+}
+
+}  // namespace
+
+BakeScene build_bake_scene(const Scene& scene, const CellSet& cells, int n_threads) {
+  BakeScene bake{scene, cells, {}, {}};
+  bake.levels.resize(scene.meshes.size());
+  parallel_for(scene.meshes.size(), n_threads,
+               [&](std::size_t m) { bake.levels[m] = build_start_levels(scene.meshes[m].mesh); });
+  for (const SceneObject& object : scene.objects) bake.boxes.push_back(world_box(scene, object));
+  return bake;
+}
+
+Representation choose_representation(const BakeScene& bake, CellId cell, ObjectId id,
+                                     const BakeOptions& options) {
+  if (is_inside(bake.cells, cell, id)) return Representation::inside;
+  const SceneObject& object = bake.scene.objects[index(id)];
+  const StartLevel& level = choose_start(bake, cell, id, options);
+  const ViewVertices placed = place_vertices(level.mesh, object);
+  const Ball ball = ball_of(bake.cells, cell);
+  const std::vector<glm::dvec3> points(placed.positions.begin(), placed.positions.end());
+  if (!choose_view(ball.centre, points, options.resolution_px)) return Representation::multi_view;
+  const auto back = find_back_faces(bake, cell, object, placed.positions, level.mesh.triangles);
+  const ObjectDepth depth =
+      measure_depth(ball.centre, placed.positions, level.mesh.triangles, back);
+  const double s = self_occluding_error_px(bake.cells.grid.size, depth.nearest, depth.depth,
+                                           options.resolution_px);
+  return s < options.ts_px ? Representation::single_view : Representation::multi_view;
+}
+
+CellMesh derive_mesh(const BakeScene& bake, CellId cell, ObjectId id, Representation kind,
+                     std::span<const ClassifiedView> views, const BakeOptions& options,
+                     CellMeshCounts& counts) {
+  VIEWCELL_CHECK(kind != Representation::inside);
+  const SceneObject& object = bake.scene.objects[index(id)];
+  const StartLevel& level = choose_start(bake, cell, id, options);
+  const std::vector<Triangle>& start = level.mesh.triangles;
+  ViewVertices vertices = place_vertices(level.mesh, object);
+  const auto back = find_back_faces(bake, cell, object, vertices.positions, start);
+  weigh_vertices(start, back, views, options.weights, vertices);
+
+  const ViewMetricOptions metric_options = make_metric_options(bake, cell, kind, options);
+  CollapseMesh work(vertices.positions, start);
+  ViewMetric metric(vertices, start, metric_options);
+  CollapseLoop loop(work, metric);
+  counts.collapses = loop.run({.max_cost = static_cast<float>(options.tl_px)});
+
+  const std::vector<Triangle> left = work.triangles();
+  CellMesh out = gather(vertices, level.source_vertex, left,
+                        find_back_faces(bake, cell, object, vertices.positions, left));
+  out.object = id;
+  counts.n_original = bake.scene.mesh_of(object).mesh.triangles.size();
+  counts.n_start = start.size();
+  counts.n_back_facing = static_cast<std::size_t>(std::count(back.begin(), back.end(), true));
+  counts.n_out = out.triangles.size();
+  return out;
+}
+
+}  // namespace viewcell

@@ -1,0 +1,76 @@
+// SVMesh and MVMesh: the textured level of detail of one object for one view cell.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "bake/vertex_weights.h"
+#include "cells/cells.h"
+#include "pm/collapse_loop.h"
+#include "scene/scene.h"
+
+namespace viewcell {
+
+struct BakeOptions {
+  double ts_px = 5;           ///< T_s: self-occluding error up to which one view is enough
+  double tl_px = 4.5;         ///< T_l: cost at which collapsing ends
+  int resolution_px = 1024;   ///< of the captures, per face width
+  double max_drift_px = 1.0;  ///< see ViewMetricOptions
+  double start_error_px =
+      0.25;  ///< start from a level whose error projects to less; 0: the original
+  CategoryOptions categories;
+  WeightOptions weights;
+};
+
+/// One level of detail of a mesh, ready to be placed.
+struct StartLevel {
+  TriMesh mesh;                              ///< model space
+  std::vector<std::uint32_t> source_vertex;  ///< numbers in the original mesh
+  double error = 0;                          ///< model units
+};
+
+/// What baking needs to know of a scene besides the captures. Read-only once built.
+struct BakeScene {
+  const Scene& scene;
+  const CellSet& cells;
+  std::vector<std::vector<StartLevel>> levels;  ///< by mesh, finest first
+  std::vector<Box> boxes;                       ///< by object, world
+};
+
+/// Builds the levels of every mesh: some seconds for a million triangles.
+BakeScene build_bake_scene(const Scene& scene, const CellSet& cells, int n_threads);
+
+enum class Representation : std::uint8_t { inside, single_view, multi_view };
+
+/// Inside the cell, or one view where the self-occluding error is below T_s, else several. Every
+/// object of a cell is exactly one of them, whoever asks.
+Representation choose_representation(const BakeScene& bake, CellId cell, ObjectId object,
+                                     const BakeOptions& options);
+
+/// The mesh of one object for one cell, world space.
+struct CellMesh {
+  ObjectId object{};
+  ViewVertices vertices;
+  std::vector<std::uint32_t> source_vertex;  ///< numbers in the object's original mesh
+  std::vector<Triangle> triangles;
+  std::vector<std::uint8_t> views;  ///< per triangle: the views that its three corners share
+};
+
+struct CellMeshCounts {
+  std::size_t n_original = 0;     ///< triangles of the object
+  std::size_t n_start = 0;        ///< of the level that collapsing started from
+  std::size_t n_back_facing = 0;  ///< of those, back-facing to the whole cell
+  std::size_t n_out = 0;
+  CollapseCounts collapses;
+};
+
+/// Follows: [Chen06 5.2.1], SVMesh with the views' first alone, MVMesh with all that see the
+/// object. Differs: triangles that are back-facing to the whole cell are culled after collapsing,
+/// not before, so that the rim of what is left is an edge loop of a closed surface and not the
+/// ragged border of the facing triangles; and an SVMesh keeps what faces any point of the cell, not
+/// its centre alone (no holes at silhouettes when the eye leaves the centre).
+CellMesh derive_mesh(const BakeScene& bake, CellId cell, ObjectId object, Representation kind,
+                     std::span<const ClassifiedView> views, const BakeOptions& options,
+                     CellMeshCounts& counts);
+
+}  // namespace viewcell
