@@ -1,0 +1,175 @@
+#include "bake/weighted_mesh_file.h"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "base/error.h"
+#include "base/file.h"
+#include "mesh/ply.h"
+
+namespace viewcell {
+namespace {
+
+constexpr const char* kTitle = "viewcell-weighted-meshes 1";
+
+const char* kind_name(Representation kind) {
+  return kind == Representation::single_view ? "svmesh" : "mvmesh";
+}
+
+// "key value" among the comments; throws when absent.
+std::string comment_value(const PlyDocument& document, const std::string& key) {
+  for (const std::string& comment : document.comments)
+    if (comment.starts_with(key + " ")) return comment.substr(key.size() + 1);
+  throw InputError(document.file, "header", "has no comment '" + key + "'");
+}
+
+// All columns of all meshes, one after another.
+struct Columns {
+  std::vector<glm::vec3> positions, normals;
+  std::vector<float> weights;
+  std::vector<std::uint8_t> vertex_views, triangle_views;
+  std::vector<std::uint32_t> source_vertex;
+  std::vector<Triangle> triangles;
+  std::vector<std::int32_t> objects;
+
+  void append(const CellMesh& mesh) {
+    const auto first = static_cast<std::uint32_t>(positions.size());
+    const auto add = [](auto& to, const auto& from) {
+      to.insert(to.end(), from.begin(), from.end());
+    };
+    add(positions, mesh.vertices.positions);
+    add(normals, mesh.vertices.normals);
+    add(weights, mesh.vertices.weights);
+    add(vertex_views, mesh.vertices.views);
+    add(source_vertex, mesh.source_vertex);
+    add(triangle_views, mesh.views);
+    for (const Triangle& t : mesh.triangles)
+      triangles.push_back({first + t[0], first + t[1], first + t[2]});
+    objects.insert(objects.end(), mesh.triangles.size(), static_cast<std::int32_t>(mesh.object));
+  }
+};
+
+// Takes the rows of one object out of the document's columns.
+class MeshSplitter {
+ public:
+  MeshSplitter(const PlyDocument& document, const Scene& scene) : document_(document) {
+    columns_.positions = document.vec3s("vertex", "x", "y", "z");
+    columns_.normals = document.vec3s("vertex", "nx", "ny", "nz");
+    columns_.weights = document.floats("vertex", "weight");
+    for (const auto v : document.uints("vertex", "views", 0x7f))
+      columns_.vertex_views.push_back(static_cast<std::uint8_t>(v));
+    columns_.source_vertex = document.uints("vertex", "source_vertex");
+    columns_.triangles = document.triangles("face", "vertex_indices", columns_.positions.size());
+    const auto most = static_cast<std::uint32_t>(scene.objects.size());
+    for (const auto o : document.uints("face", "object", most == 0 ? 0 : most - 1))
+      columns_.objects.push_back(static_cast<std::int32_t>(o));
+    for (const auto v : document.uints("face", "views", 0x7f))
+      columns_.triangle_views.push_back(static_cast<std::uint8_t>(v));
+  }
+
+  std::vector<CellMesh> split(const Scene& scene) {
+    std::vector<CellMesh> out;
+    std::uint32_t vertex = 0;  // the first vertex that no mesh has taken yet
+    for (std::size_t t = 0; t < columns_.triangles.size();) {
+      std::size_t end = t;
+      while (end < columns_.triangles.size() && columns_.objects[end] == columns_.objects[t]) ++end;
+      if (!out.empty() && columns_.objects[t] <= static_cast<std::int32_t>(out.back().object))
+        fail(t, "its object is out of order");
+      out.push_back(take(t, end, vertex, scene));
+      t = end;
+    }
+    return out;
+  }
+
+ private:
+  [[noreturn]] void fail(std::size_t face, const std::string& what) const {
+    throw InputError(document_.file, "face " + std::to_string(face), what);
+  }
+
+  CellMesh take(std::size_t begin, std::size_t end, std::uint32_t& vertex, const Scene& scene) {
+    CellMesh mesh;
+    mesh.object = ObjectId(columns_.objects[begin]);
+    const std::uint32_t first = vertex;
+    for (std::size_t t = begin; t < end; ++t) {
+      Triangle local{};
+      for (std::size_t k = 0; k < 3; ++k) {
+        const std::uint32_t v = columns_.triangles[t][k];
+        if (v < first) fail(t, "uses a vertex of another object");
+        vertex = std::max(vertex, v + 1);
+        local[k] = v - first;
+      }
+      mesh.triangles.push_back(local);
+      mesh.views.push_back(columns_.triangle_views[t]);
+    }
+    const std::size_t most = scene.mesh_of(scene.objects[index(mesh.object)]).mesh.positions.size();
+    for (std::uint32_t v = first; v < vertex; ++v) {
+      if (columns_.source_vertex[v] >= most)
+        throw InputError(document_.file, "vertex " + std::to_string(v),
+                         "source_vertex is out of the object's range");
+      mesh.source_vertex.push_back(columns_.source_vertex[v]);
+      mesh.vertices.positions.push_back(columns_.positions[v]);
+      mesh.vertices.normals.push_back(columns_.normals[v]);
+      mesh.vertices.weights.push_back(columns_.weights[v]);
+      mesh.vertices.views.push_back(columns_.vertex_views[v]);
+    }
+    return mesh;
+  }
+
+  const PlyDocument& document_;
+  Columns columns_;
+};
+
+}  // namespace
+
+std::string weighted_mesh_name(CellId cell) {
+  char name[32];
+  std::snprintf(name, sizeof name, "cell-%05d.ply", static_cast<int>(cell));
+  return name;
+}
+
+void write_weighted_meshes(const std::filesystem::path& file, const WeightedMeshes& meshes,
+                           const std::string& provenance) {
+  Columns columns;
+  for (const CellMesh& mesh : meshes.meshes) columns.append(mesh);
+  PlyDocument document;
+  document.comments = {kTitle, std::string("kind ") + kind_name(meshes.kind),
+                       "cell " + std::to_string(static_cast<int>(meshes.cell)),
+                       "made_from " + meshes.made_from, "made_by " + provenance};
+  PlyElement vertex{.name = "vertex", .count = columns.positions.size()};
+  add_vec3s(vertex, {"x", "y", "z"}, columns.positions);
+  add_vec3s(vertex, {"nx", "ny", "nz"}, columns.normals);
+  add_column(vertex, "weight", columns.weights);
+  add_column(vertex, "views", columns.vertex_views);
+  add_column(vertex, "source_vertex", columns.source_vertex);
+  PlyElement face{.name = "face", .count = columns.triangles.size()};
+  add_triangles(face, "vertex_indices", columns.triangles);
+  add_column(face, "object", columns.objects);
+  add_column(face, "views", columns.triangle_views);
+  document.elements = {std::move(vertex), std::move(face)};
+  write_file(file, format_ply(document));
+}
+
+WeightedMeshes read_weighted_meshes(const std::filesystem::path& file, const Scene& scene) {
+  const PlyDocument document = parse_ply(read_file(file), file.string());
+  if (document.comments.empty() || document.comments[0] != kTitle)
+    throw InputError(file.string(), "header", "is not a file of weighted meshes");
+  WeightedMeshes out;
+  out.kind = comment_value(document, "kind") == "svmesh" ? Representation::single_view
+                                                         : Representation::multi_view;
+  out.made_from = comment_value(document, "made_from");
+  out.cell = CellId(std::atoi(comment_value(document, "cell").c_str()));
+  out.meshes = MeshSplitter(document, scene).split(scene);
+  return out;
+}
+
+std::string made_from_of(const std::filesystem::path& file) {
+  std::error_code ignored;
+  if (!std::filesystem::exists(file, ignored)) return "";
+  try {
+    return comment_value(parse_ply(read_file(file), file.string()), "made_from");
+  } catch (const InputError&) {
+    return "";  // damaged: derived again
+  }
+}
+
+}  // namespace viewcell

@@ -1,0 +1,128 @@
+#include "base/section_file.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+
+#include "base/file.h"
+
+namespace viewcell {
+namespace {
+
+constexpr char kMagic[8] = {'V', 'C', 'S', 'E', 'C', 'T', '0', '1'};
+constexpr std::uint32_t kMostSections = 64;
+constexpr std::size_t kEntryBytes = 32;
+constexpr std::size_t kHeadBytes = 16;
+
+std::uint64_t aligned(std::uint64_t offset) {
+  return (offset + 15) / 16 * 16;
+}
+
+template <typename T>
+void append(std::string& out, const T& value) {
+  out.append(reinterpret_cast<const char*>(&value), sizeof value);
+}
+
+}  // namespace
+
+void SectionWriter::add_bytes(const std::string& tag, std::string_view bytes) {
+  VIEWCELL_CHECK(tag.size() <= 8 && sections_.size() < kMostSections, tag, sections_.size());
+  sections_.push_back({tag, std::string(bytes)});
+}
+
+void SectionWriter::write(const std::filesystem::path& file) const {
+  std::string out(kMagic, sizeof kMagic);
+  append(out, kind_);
+  append(out, static_cast<std::uint32_t>(sections_.size()));
+  std::uint64_t offset = kHeadBytes + sections_.size() * kEntryBytes + 8;
+  for (const Section& section : sections_) {
+    offset = aligned(offset);
+    char tag[8] = {};
+    std::memcpy(tag, section.tag.data(), section.tag.size());
+    out.append(tag, sizeof tag);
+    append(out, offset);
+    append(out, static_cast<std::uint64_t>(section.bytes.size()));
+    append(out, hash_bytes(section.bytes.data(), section.bytes.size()));
+    offset += section.bytes.size();
+  }
+  append(out, hash_bytes(out.data(), out.size()));
+  for (const Section& section : sections_) {
+    out.resize(aligned(out.size()), '\0');
+    out += section.bytes;
+  }
+  write_file(file, out);
+}
+
+SectionReader::SectionReader(const std::filesystem::path& file, std::uint32_t kind) : file_(file) {
+  fd_ = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
+  if (fd_ < 0) throw InputError(file.string(), "", std::string("cannot open: ") + strerror(errno));
+  try {
+    read_table(kind);
+  } catch (...) {
+    ::close(fd_);
+    throw;
+  }
+}
+
+SectionReader::~SectionReader() {
+  ::close(fd_);
+}
+
+void SectionReader::read_table(std::uint32_t kind) {
+  struct stat info {};
+  if (::fstat(fd_, &info) != 0 || !S_ISREG(info.st_mode)) fail("", "is not a file");
+  const auto size = static_cast<std::uint64_t>(info.st_size);
+  std::string head(kHeadBytes, '\0');
+  if (size < kHeadBytes + 8) fail("", "is too short to be a section file");
+  read_at(0, head.data(), head.size());
+  if (std::memcmp(head.data(), kMagic, sizeof kMagic) != 0) fail("", "is not a section file");
+  std::uint32_t found_kind = 0, n = 0;
+  std::memcpy(&found_kind, head.data() + 8, 4);
+  std::memcpy(&n, head.data() + 12, 4);
+  if (found_kind != kind) fail("", "is a section file of another kind");
+  if (n > kMostSections || size < kHeadBytes + n * kEntryBytes + 8) fail("", "is truncated");
+  head.resize(kHeadBytes + n * kEntryBytes + 8);
+  read_at(kHeadBytes, head.data() + kHeadBytes, head.size() - kHeadBytes);
+  std::uint64_t hash = 0;
+  std::memcpy(&hash, head.data() + head.size() - 8, 8);
+  if (hash != hash_bytes(head.data(), head.size() - 8))
+    fail("", "its table of sections is damaged");
+  sections_.resize(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    std::memcpy(&sections_[i], head.data() + kHeadBytes + i * kEntryBytes, kEntryBytes);
+    const Section& section = sections_[i];
+    if (section.offset > size || section.n_bytes > size - section.offset)
+      fail(std::string(section.tag, strnlen(section.tag, 8)), "reaches past the end of the file");
+  }
+}
+
+const SectionReader::Section& SectionReader::find(const std::string& tag) const {
+  for (const Section& section : sections_)
+    if (tag == std::string(section.tag, strnlen(section.tag, 8))) return section;
+  fail(tag, "is missing");
+}
+
+void SectionReader::read_bytes(const Section& section, char* to) const {
+  read_at(section.offset, to, section.n_bytes);
+  if (hash_bytes(to, section.n_bytes) != section.hash)
+    fail(std::string(section.tag, strnlen(section.tag, 8)), "is damaged: its hash does not match");
+}
+
+void SectionReader::read_at(std::uint64_t offset, char* to, std::uint64_t n) const {
+  while (n > 0) {
+    const ssize_t got = ::pread(fd_, to, n, static_cast<off_t>(offset));
+    if (got < 0 && errno == EINTR) continue;
+    if (got <= 0) fail("", "cannot be read to its end");
+    offset += static_cast<std::uint64_t>(got);
+    to += got;
+    n -= static_cast<std::uint64_t>(got);
+  }
+}
+
+void SectionReader::fail(const std::string& tag, const std::string& what) const {
+  throw InputError(file_.string(), tag.empty() ? "" : "section " + tag, what);
+}
+
+}  // namespace viewcell
