@@ -25,10 +25,10 @@ struct Box {
 /// Corner attributes (texture coordinates) stand in arrays of 3 x triangles, or are empty.
 struct TriMesh {
   std::vector<glm::vec3> positions;
-  std::vector<glm::vec3> normals;     ///< unit, per vertex
-  std::vector<glm::vec3> colors;      ///< linear, [0, 1], per vertex
+  std::vector<glm::vec3> normals;  ///< unit, per vertex
+  std::vector<glm::vec3> colors;   ///< linear, [0, 1], per vertex
   std::vector<Triangle> triangles;
-  std::vector<glm::vec2> texcoords;   ///< per corner
+  std::vector<glm::vec2> texcoords;     ///< per corner
   std::vector<std::int32_t> materials;  ///< per triangle: place in material_names; or empty
   std::vector<std::string> material_names;
 };

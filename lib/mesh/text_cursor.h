@@ -1,0 +1,58 @@
+// Walks over the words of a text file, for the readers of this room.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace viewcell {
+
+/// A word as a finite float; false when it is not one ("nan", "1e99" and "12x" are not).
+bool parse_finite(std::string_view word, float& out);
+bool parse_finite(std::string_view word, double& out);
+/// A whole number; false when it is not one or does not fit.
+bool parse_integer(std::string_view word, std::int64_t& out);
+
+/// White space separates words; a backslash joins a line to the next; a comment runs from its sign
+/// to the end of the line. The text must outlive the cursor. Every getter throws InputError (file,
+/// line) for what it does not expect.
+class TextCursor {
+ public:
+  /// comment: '#', or 0 for none. first_line: the number of the text's first line.
+  TextCursor(std::string_view text, std::string file, char comment = '#',
+             std::int64_t first_line = 1)
+      : text_(text), file_(std::move(file)), comment_(comment), line_(first_line) {}
+
+  /// True when no word is left.
+  bool at_end();
+  /// The next word, which may stand lines below.
+  std::string_view word();
+  /// The next word of this line; empty when the line has no more.
+  std::string_view word_in_line();
+  /// Leaves the cursor at the start of the next line.
+  void skip_line();
+
+  /// what: "vertex 17", for the error.
+  float number(const char* what, std::uint64_t id);
+  std::int64_t integer(const char* what, std::uint64_t id, std::int64_t lo, std::int64_t hi);
+
+  /// Bytes not walked over yet.
+  std::uint64_t bytes_left() const { return text_.size() - at_; }
+  std::int64_t line() const { return line_; }
+  /// Throws InputError at this line.
+  [[noreturn]] void fail(const std::string& what) const;
+
+ private:
+  void skip_space();
+  void skip_space_in_line();
+  bool is_continuation() const;
+  std::string_view take_word();
+
+  std::string_view text_;
+  std::string file_;
+  char comment_;
+  std::size_t at_ = 0;
+  std::int64_t line_;
+};
+
+}  // namespace viewcell
