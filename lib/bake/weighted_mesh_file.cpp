@@ -135,13 +135,17 @@ void write_weighted_meshes(const std::filesystem::path& file, const WeightedMesh
   document.comments = {kTitle, std::string("kind ") + kind_name(meshes.kind),
                        "cell " + std::to_string(static_cast<int>(meshes.cell)),
                        "made_from " + meshes.made_from, "made_by " + provenance};
-  PlyElement vertex{.name = "vertex", .count = columns.positions.size()};
+  PlyElement vertex;
+  vertex.name = "vertex";
+  vertex.count = columns.positions.size();
   add_vec3s(vertex, {"x", "y", "z"}, columns.positions);
   add_vec3s(vertex, {"nx", "ny", "nz"}, columns.normals);
   add_column(vertex, "weight", columns.weights);
   add_column(vertex, "views", columns.vertex_views);
   add_column(vertex, "source_vertex", columns.source_vertex);
-  PlyElement face{.name = "face", .count = columns.triangles.size()};
+  PlyElement face;
+  face.name = "face";
+  face.count = columns.triangles.size();
   add_triangles(face, "vertex_indices", columns.triangles);
   add_column(face, "object", columns.objects);
   add_column(face, "views", columns.triangle_views);
