@@ -1,0 +1,16 @@
+// The outside of an EXR file, looked at before a decoder is.
+#pragma once
+
+#include <filesystem>
+
+namespace viewcell {
+
+/// Walks the headers and chunk tables of a scan-line EXR, of one part or many, and holds that
+/// - it is one: no tiles, no deep data;
+/// - every data window is 1 to 16384 pixels a side, its corners within 2^20 of the origin;
+/// - the chunk tables are as long as the windows ask for, and every chunk starts inside the file;
+/// - the last chunk ends inside the file: so a file cut anywhere is found out here.
+/// Reads headers and tables only. Throws InputError naming the file and the part.
+void check_exr_layout(const std::filesystem::path& file);
+
+}  // namespace viewcell
