@@ -11,9 +11,10 @@ namespace viewcell {
 
 /// Reads OBJ, PLY (also .ply.gz), OFF, STL, GLB/glTF, 3DS by the file's extension. Polygons are cut
 /// into fans; vertex order and numbers stay those of the file (STL: equal positions become one
-/// vertex). Normals come out of unit length. Colours in files are taken as sRGB, except glTF's, which
-/// are linear. Texture coordinates have (0, 0) at the image's lower left; glTF's are turned over. A
-/// glTF scene's nodes are flattened into one mesh. Throws InputError (file, place) for anything malformed, and for a mesh with no faces.
+/// vertex). Normals come out of unit length. Colours in files are taken as sRGB, except glTF's,
+/// which are linear. Texture coordinates have (0, 0) at the image's lower left; glTF's are turned
+/// over. A glTF scene's nodes are flattened into one mesh. Throws InputError (file, place) for
+/// anything malformed, and for a mesh with no faces.
 TriMesh read_mesh(const std::filesystem::path& file);
 
 /// Binary little-endian PLY: positions, and normals and colours where present. comments: lines of

@@ -1,0 +1,42 @@
+// Damaged copies of a file: whatever a reader makes of them, it must not crash.
+#pragma once
+
+#include <string>
+
+#include "base/error.h"
+#include "base/random.h"
+
+namespace viewcell {
+
+/// One to four bytes changed, or a stretch taken out, doubled or cut off.
+inline std::string mutate(std::string bytes, Random& random) {
+  const auto place = [&] { return random.below(static_cast<std::uint32_t>(bytes.size())); };
+  const std::uint32_t kind = random.below(8);
+  if (kind == 0) return bytes.substr(0, place());
+  if (kind == 1) return bytes.erase(place(), 1 + random.below(8));
+  if (kind == 2) {
+    const std::size_t at = place();
+    return bytes.insert(at, bytes.substr(at, 1 + random.below(16)));
+  }
+  for (std::uint32_t n = 1 + random.below(4); n > 0; --n) {
+    static constexpr char kTelling[] = {0, -1, '9', '-', 'e', ' ', '\n', 0x7f};
+    bytes[place()] = random.below(2) ? kTelling[random.below(sizeof kTelling)]
+                                     : static_cast<char>(random.below(256));
+  }
+  return bytes;
+}
+
+/// Calls read(damaged) for `n` damaged copies; InputError is the one exception allowed.
+template <typename Read>
+void read_damaged_copies(const std::string& bytes, int n, std::uint64_t seed, const Read& read) {
+  Random random(seed);
+  for (int i = 0; i < n; ++i) {
+    const std::string damaged = mutate(bytes, random);
+    try {
+      read(damaged);
+    } catch (const InputError&) {
+    }
+  }
+}
+
+}  // namespace viewcell
