@@ -19,7 +19,7 @@ class RayCapture {
   RayCapture& operator=(const RayCapture&) = delete;
 
   /// One ray a pixel centre; the nearest front-facing (or double-sided) triangle of that object
-  /// alone. Colour and depth outside the object are left zero (fill_tile fills them).
+  /// alone. Colour and depth outside the object are left zero (push_pull_fill fills them).
   CaptureTile capture(ObjectId object, const CaptureView& view, const Crop& crop) const;
 
  private:

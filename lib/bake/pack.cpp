@@ -1,0 +1,158 @@
+#include "bake/pack.h"
+
+#include <algorithm>
+#include <mutex>
+#include <set>
+
+#include "base/error.h"
+#include "base/file.h"
+
+namespace viewcell {
+namespace fs = std::filesystem;
+namespace {
+
+// The meshes of a cell, both kinds, by object; with every outside object exactly once.
+struct CellMeshes {
+  std::vector<CellMesh> meshes;
+  std::vector<Representation> kinds;
+};
+
+CellMeshes read_cell_meshes(const Scene& scene, const CellSet& cells, const PackInputs& inputs,
+                            CellId cell) {
+  CellMeshes out;
+  std::vector<int> n_times(scene.objects.size(), 0);
+  for (const fs::path& folder : {inputs.svmesh, inputs.mvmesh}) {
+    const fs::path file = folder / weighted_mesh_name(cell);
+    WeightedMeshes read = read_weighted_meshes(file, scene);
+    if (read.cell != cell) throw InputError(file.string(), "header", "is of another cell");
+    const auto kind =
+        folder == inputs.svmesh ? Representation::single_view : Representation::multi_view;
+    if (read.kind != kind) throw InputError(file.string(), "header", "is of the other kind");
+    for (CellMesh& mesh : read.meshes) {
+      ++n_times[index(mesh.object)];
+      out.meshes.push_back(std::move(mesh));
+      out.kinds.push_back(kind);
+    }
+  }
+  for (std::size_t o = 0; o < n_times.size(); ++o) {
+    const int expected = is_inside(cells, cell, ObjectId(o)) ? 0 : 1;
+    if (n_times[o] != expected)
+      throw InputError(inputs.svmesh.string(), "cell " + std::to_string(static_cast<int>(cell)),
+                       "object " + std::to_string(o) + " is in " + std::to_string(n_times[o]) +
+                           " of svmesh and mvmesh, not in " + std::to_string(expected) +
+                           "; derive both with the same options");
+  }
+  return out;
+}
+
+BundleObject describe(const CellMesh& mesh, Representation kind) {
+  BundleObject out;
+  out.object = static_cast<std::int32_t>(mesh.object);
+  out.kind = static_cast<std::uint32_t>(kind);
+  out.n_vertices = static_cast<std::uint32_t>(mesh.source_vertex.size());
+  out.n_triangles = static_cast<std::uint32_t>(mesh.triangles.size());
+  glm::vec3 lo(1e30f), hi(-1e30f);
+  for (const glm::vec3& p : mesh.vertices.positions) lo = glm::min(lo, p), hi = glm::max(hi, p);
+  for (int k = 0; k < 3; ++k) out.lo[k] = lo[k], out.hi[k] = hi[k];
+  return out;
+}
+
+CellGeometry make_geometry(const CellMeshes& cell) {
+  CellGeometry out;
+  for (std::size_t m = 0; m < cell.meshes.size(); ++m) {
+    const CellMesh& mesh = cell.meshes[m];
+    out.objects.push_back(describe(mesh, cell.kinds[m]));
+    out.source_vertices.insert(out.source_vertices.end(), mesh.source_vertex.begin(),
+                               mesh.source_vertex.end());
+    for (const Triangle& t : mesh.triangles)
+      out.indices.insert(out.indices.end(), t.begin(), t.end());
+    out.views.insert(out.views.end(), mesh.views.begin(), mesh.views.end());
+  }
+  return out;
+}
+
+// Which objects' tiles a centre's textures need.
+using TilesNeeded = std::map<CentreId, std::set<ObjectId>>;
+
+void add_needed(const CellSet& cells, CellId cell, const CellMeshes& meshes, TilesNeeded& needed) {
+  const auto views = views_of(cells.grid, cell);
+  for (std::size_t m = 0; m < meshes.meshes.size(); ++m)
+    for (std::size_t k = 0; k < views.size(); ++k)
+      if (k == 0 || meshes.kinds[m] == Representation::multi_view)
+        needed[views[k]].insert(meshes.meshes[m].object);
+}
+
+void copy_into(const fs::path& from, const fs::path& to) {
+  make_folder(to.parent_path());
+  write_file(to, read_file(from));
+}
+
+CentreTextures read_textures(const fs::path& captures, const CaptureSettings& settings,
+                             CentreId centre, const std::set<ObjectId>& objects) {
+  CentreCaptures file(capture_file_of(captures, centre), settings);
+  CentreTextures out;
+  for (const ObjectId object : objects)
+    if (const auto tile = file.read(object)) append_tile(*tile, out);
+  return out;
+}
+
+std::size_t count_inside(const Scene& scene, const CellSet& cells, CellId cell) {
+  std::size_t n = 0;
+  for (const ObjectId object : cells.inside[index(cell)])
+    n += scene.mesh_of(scene.objects[index(object)]).mesh.triangles.size();
+  return n;
+}
+
+}  // namespace
+
+PackCounts pack_bundle(const Scene& scene, const CellSet& cells, const PackInputs& inputs,
+                       const std::vector<CellId>& list, TextureFormat format, const Json& made_by,
+                       const fs::path& bundle, int n_threads, const Progress& progress) {
+  const CaptureSettings settings =
+      read_settings(inputs.captures, scene, hash_file(inputs.cells_file));
+  std::error_code ignored;
+  fs::remove(bundle / kManifestName, ignored);  // from here on the folder is no bundle
+  make_folder(bundle / "cells");
+  make_folder(bundle / "centres");
+
+  PackCounts counts;
+  TilesNeeded needed;
+  std::mutex mutex;  // guards both
+  const auto pack_cell = [&](std::size_t i) {
+    const CellMeshes meshes = read_cell_meshes(scene, cells, inputs, list[i]);
+    write_cell_geometry(cell_file(bundle, list[i]), make_geometry(meshes));
+    const std::lock_guard lock(mutex);
+    add_needed(cells, list[i], meshes, needed);
+    counts.n_inside += cells.inside[index(list[i])].size();
+    counts.n_triangles_inside += count_inside(scene, cells, list[i]);
+    for (std::size_t m = 0; m < meshes.meshes.size(); ++m) {
+      counts.n_triangles_outside += meshes.meshes[m].triangles.size();
+      ++(meshes.kinds[m] == Representation::single_view ? counts.n_single_view
+                                                        : counts.n_multi_view);
+    }
+  };
+  parallel_for(list.size(), n_threads, pack_cell, progress);
+
+  BundleManifest manifest{scene.hash, settings.resolution_px, format, list, {}, made_by};
+  for (const auto& [centre, objects] : needed) manifest.centres.push_back(centre);
+  const auto pack_centre = [&](std::size_t i) {
+    const CentreId centre = manifest.centres[i];
+    const CentreTextures textures =
+        read_textures(inputs.captures, settings, centre, needed.at(centre));
+    write_centre_textures(centre_file(bundle, centre), textures, format);
+    const std::lock_guard lock(mutex);
+    counts.texel_bytes += textures.texels.size() * sizeof(Rgba8);
+  };
+  parallel_for(manifest.centres.size(), n_threads, pack_centre, progress);
+
+  for (const SceneMesh& mesh : scene.meshes)
+    copy_into(resolve_inside(inputs.scene_file, "meshes", mesh.file), bundle / mesh.file);
+  copy_into(inputs.scene_file, bundle / "scene.json");
+  copy_into(inputs.cells_file, bundle / "cells.json");
+  write_file(bundle / kManifestName, format_json(format_manifest(manifest)));
+  counts.n_cells = list.size();
+  counts.n_centres = manifest.centres.size();
+  return counts;
+}
+
+}  // namespace viewcell

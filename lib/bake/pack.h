@@ -1,0 +1,30 @@
+// Packing captures and meshes into a bundle.
+#pragma once
+
+#include "bake/bundle.h"
+#include "bake/weighted_mesh_file.h"
+#include "base/parallel.h"
+#include "capture/captures.h"
+
+namespace viewcell {
+
+struct PackInputs {
+  std::filesystem::path scene_file, cells_file, captures, svmesh, mvmesh;
+};
+
+struct PackCounts {
+  std::size_t n_cells = 0, n_centres = 0;
+  std::size_t n_single_view = 0, n_multi_view = 0, n_inside = 0;  ///< object-cell pairs
+  std::size_t n_triangles_inside = 0, n_triangles_outside = 0;    ///< over all cells
+  std::size_t texel_bytes = 0;
+};
+
+/// Packs the given cells. Each needs its PLY in both svmesh and mvmesh, and every object outside a
+/// cell must be in exactly one of them; otherwise InputError. The manifest is written last; without
+/// it the folder is no bundle.
+PackCounts pack_bundle(const Scene& scene, const CellSet& cells, const PackInputs& inputs,
+                       const std::vector<CellId>& list, TextureFormat format, const Json& made_by,
+                       const std::filesystem::path& bundle, int n_threads,
+                       const Progress& progress);
+
+}  // namespace viewcell

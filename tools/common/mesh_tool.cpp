@@ -1,0 +1,124 @@
+#include "common/mesh_tool.h"
+
+#include <mutex>
+
+#include "bake/derive.h"
+#include "base/file.h"
+#include "common/provenance.h"
+#include "common/tool.h"
+
+namespace viewcell {
+namespace {
+
+struct Options {
+  std::string scene_file, cells_file, captures;
+  std::string cell_list = "all", slice;
+  BakeOptions bake;
+};
+
+void declare_weights(CLI::App& app, WeightOptions& w) {
+  const auto add = [&](const char* flag, double& value, const char* what) {
+    app.add_option(flag, value, what)->capture_default_str()->check(CLI::Range(0.0, 100.0));
+  };
+  add("--weight-exterior", w.exterior_silhouette, "weight of exterior silhouettes");
+  add("--weight-interior-silhouette", w.interior_silhouette, "weight of C0 discontinuities");
+  add("--weight-sharp", w.sharp_edge, "weight of C1 discontinuities");
+  add("--weight-interior", w.interior, "weight of other pixels");
+  add("--weight-invisible", w.invisible, "weight of hidden vertices");
+  add("--weight-back", w.back_facing, "weight of back-facing vertices");
+}
+
+void declare(Tool& tool, Options& options) {
+  CLI::App& app = tool.app();
+  app.add_option("scene", options.scene_file, "scene.json")->required();
+  app.add_option("cells", options.cells_file, "cells.json")->required();
+  app.add_option("captures", options.captures, "folder of captures")->required();
+  app.add_option("--cells", options.cell_list, "all | 3,7,10-19 | @FILE | path:path.json")
+      ->capture_default_str();
+  app.add_option("--slice", options.slice, "I/N: every N-th of those cells, from the I-th");
+  const auto add = [&](const char* flag, double& value, const char* what) {
+    app.add_option(flag, value, what)->capture_default_str()->check(CLI::Range(0.0, 1e6));
+  };
+  BakeOptions& bake = options.bake;
+  add("--ts", bake.ts_px, "T_s: self-occluding error, px, up to which one view is enough");
+  add("--tl", bake.tl_px, "T_l: cost at which collapsing ends");
+  add("--max-drift", bake.max_drift_px, "px by which a vertex may leave the surface");
+  add("--start-error", bake.start_error_px, "px of error of the level to start from; 0: original");
+  add("--tc0", bake.categories.tc0, "T_C0, window depth for near 1, far infinite");
+  add("--tc1", bake.categories.tc1, "T_C1, likewise");
+  declare_weights(app, bake.weights);
+  tool.add_output("folder of meshes to write, a PLY a cell");
+}
+
+Json format_counts(const DeriveCounts& counts, std::size_t n_cells, std::size_t n_kept) {
+  const CellMeshCounts& t = counts.triangles;
+  Json refused = Json::object();
+  for (int k = 1; k < kRefusalKinds; ++k)
+    refused[refusal_name(static_cast<Refusal>(k))] =
+        t.collapses.n_refused[static_cast<std::size_t>(k)];
+  return {{"cells", n_cells},
+          {"kept", n_kept},
+          {"meshes", counts.n_meshes},
+          {"unseen", counts.n_unseen},
+          {"triangles_original", t.n_original},
+          {"triangles_start", t.n_start},
+          {"triangles_back_facing", t.n_back_facing},
+          {"triangles_out", t.n_out},
+          {"collapses", t.collapses.n_collapses},
+          {"refused", refused}};
+}
+
+int run(const Tool& tool, Representation kind, Options& options) {
+  const int n_threads = tool.common().n_threads;
+  const Scene scene = read_scene(options.scene_file, {.n_threads = n_threads});
+  const CellSet cells = read_cells(options.cells_file);
+  check_cells_of_scene(cells, scene, options.cells_file);
+  const auto list = select_cells(cells, options.cell_list, options.slice);
+  const CaptureSettings settings =
+      read_settings(options.captures, scene, hash_file(options.cells_file));
+  options.bake.resolution_px = settings.resolution_px;
+  const std::string made_by =
+      make_provenance(tool, format_options(options.bake), {{"captures", settings.key()}}).dump();
+  const std::string key = hash_hex(made_by);
+  const std::filesystem::path folder = tool.common().output;
+  make_folder(folder);
+
+  const BakeScene bake = build_bake_scene(scene, cells, n_threads);
+  std::mutex mutex;  // guards the sums
+  DeriveCounts sums;
+  std::size_t n_kept = 0;
+  const auto derive = [&](std::size_t i) {
+    const std::filesystem::path file = folder / weighted_mesh_name(list[i]);
+    const bool is_there = made_from_of(file) == key;
+    DeriveCounts counts;
+    if (!is_there) {
+      WeightedMeshes meshes =
+          derive_cell(bake, options.captures, settings, list[i], kind, options.bake, counts);
+      meshes.made_from = key;
+      write_weighted_meshes(file, meshes, made_by);
+    }
+    const std::lock_guard lock(mutex);
+    sums.add(counts);
+    n_kept += is_there;
+  };
+  parallel_for(list.size(), n_threads, derive, tool.progress("cells"));
+  tool.report(format_counts(sums, list.size(), n_kept));
+  tool.say(std::to_string(list.size()) + " cells (" + std::to_string(n_kept) + " already there), " +
+           std::to_string(sums.n_meshes) + " meshes of " + std::to_string(sums.triangles.n_out) +
+           " triangles");
+  return 0;
+}
+
+}  // namespace
+
+int mesh_tool_main(int argc, char** argv, Representation kind, const std::string& name,
+                   const std::string& description) {
+  Tool tool(name, description,
+            name + " park/scene.json cells.json captures/ --ts 5 --tl 4.5 --cells 120-130 -o " +
+                name + "/");
+  Options options;
+  declare(tool, options);
+  return tool.main(argc, argv, [&] { return run(tool, kind, options); });
+}
+
+}  // namespace viewcell

@@ -1,0 +1,107 @@
+// depthcap: captures colour and depth of every object from every cell's centre.
+#include <atomic>
+
+#include "base/error.h"
+#include "base/file.h"
+#include "capture/captures.h"
+
+#include "capture/ray_capture.h"
+#include "common/provenance.h"
+#include "common/tool.h"
+#include "image/fill.h"
+
+namespace viewcell {
+namespace {
+
+struct Options {
+  std::string scene_file, cells_file;
+  std::string cell_list = "all", slice;
+  int resolution_px = 1024;
+  std::string engine = "embree";
+};
+
+void declare(Tool& tool, Options& options) {
+  CLI::App& app = tool.app();
+  app.add_option("scene", options.scene_file, "scene.json")->required();
+  app.add_option("cells", options.cells_file, "cells.json")->required();
+  app.add_option("--cells", options.cell_list, "all | 3,7,10-19 | @FILE | path:path.json")
+      ->capture_default_str();
+  app.add_option("--slice", options.slice, "I/N: every N-th of those cells, from the I-th");
+  app.add_option("--resolution", options.resolution_px, "pixels per width of a side face")
+      ->capture_default_str()
+      ->check(CLI::Range(16, 8192));
+  app.add_option("--engine", options.engine, "embree | gl")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"embree"}));
+  tool.add_output("folder of captures to write");
+}
+
+std::vector<std::vector<glm::dvec3>> place_points(const Scene& scene) {
+  std::vector<std::vector<glm::dvec3>> points;
+  for (const SceneObject& object : scene.objects) {
+    auto& placed = points.emplace_back();
+    for (const glm::vec3& p : scene.mesh_of(object).mesh.positions)
+      placed.push_back(object.world_from_model(glm::dvec3(p)));
+  }
+  return points;
+}
+
+int run(const Tool& tool, const Options& options) {
+  const int n_threads = tool.common().n_threads;
+  const Scene scene = read_scene(options.scene_file, {.n_threads = n_threads});
+  const CellSet cells = read_cells(options.cells_file);
+  check_cells_of_scene(cells, scene, options.cells_file);
+  const auto centres = centres_of(cells, select_cells(cells, options.cell_list, options.slice));
+  const CaptureSettings settings{scene.hash, hash_file(options.cells_file), options.resolution_px,
+                                 options.engine};
+  const std::filesystem::path folder = tool.common().output;
+  make_folder(folder);
+
+  const RayCapture engine(scene, n_threads);
+  const auto points = place_points(scene);
+  std::atomic<std::size_t> n_kept{0}, n_tiles{0}, n_pixels{0}, n_left_out{0};
+  const auto capture_centre = [&](std::size_t i) {
+    const std::filesystem::path file = capture_file_of(folder, centres[i]);
+    if (is_captured(file, settings)) {
+      ++n_kept;
+      return;
+    }
+    std::vector<CaptureTile> tiles;
+    for (const ObjectId object : objects_seen_from(cells, centres[i])) {
+      const auto viewed =
+          choose_view(eye_of(cells, centres[i]), points[index(object)], options.resolution_px);
+      n_left_out += !viewed;
+      if (!viewed) continue;
+      tiles.push_back(engine.capture(object, viewed->view, viewed->crop));
+      push_pull_fill(tiles.back().color, tiles.back().inverse_depth);
+      n_pixels += tiles.back().color.pixels.size();
+    }
+    n_tiles += tiles.size();
+    write_captures(file, tiles, settings);
+  };
+  parallel_for(centres.size(), n_threads, capture_centre, tool.progress("centres"));
+  const Json made_by =
+      make_provenance(tool, {{"resolution", options.resolution_px}, {"engine", options.engine}},
+                      {{"scene", scene.hash}, {"cells", settings.cells_hash}});
+  write_file(folder / kCapturesManifest, format_json(format_settings(settings, made_by)));
+  tool.report({{"centres", centres.size()},
+               {"kept", n_kept.load()},
+               {"captures", n_tiles.load()},
+               {"pixels", n_pixels.load()},
+               {"left_out", n_left_out.load()}});
+  tool.say(std::to_string(centres.size()) + " centres, " + std::to_string(n_kept.load()) +
+           " of them already there, " + std::to_string(n_tiles.load()) + " captures");
+  return 0;
+}
+
+}  // namespace
+}  // namespace viewcell
+
+int main(int argc, char** argv) {
+  viewcell::Tool tool(
+      "depthcap", "Capture colour and depth of objects from the centres of cells.",
+      "depthcap park/scene.json cells.json --cells path:park/path.json -o captures");
+  viewcell::Options options;
+  viewcell::declare(tool, options);
+  return tool.main(argc, argv, [&] { return viewcell::run(tool, options); });
+}
