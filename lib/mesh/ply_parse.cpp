@@ -198,7 +198,8 @@ void start_rows(PlyElement& element) {
 template <typename T>
 T parse_value(TextCursor& text, const PlyElement& element, std::uint64_t row) {
   if constexpr (std::is_integral_v<T>) {
-    return static_cast<T>(text.integer(element.name.c_str(), row, std::numeric_limits<T>::min(),
+    return static_cast<T>(text.integer(text.word(), element.name.c_str(), row,
+                                       std::numeric_limits<T>::min(),
                                        std::numeric_limits<T>::max()));
   } else {
     const std::string_view word = text.word();
@@ -215,7 +216,7 @@ void parse_text_rows(PlyElement& element, TextCursor& text) {
     for (PlyColumn& column : element.columns) {
       // A longer list than the text has words fails at the end of the text.
       const std::int64_t n =
-          column.is_list ? text.integer(element.name.c_str(), row, 0, 0xffffffff) : 1;
+          column.is_list ? text.integer(text.word(), element.name.c_str(), row, 0, 0xffffffff) : 1;
       std::visit(
           [&]<typename T>(std::vector<T>& values) {
             for (std::int64_t i = 0; i < n; ++i)

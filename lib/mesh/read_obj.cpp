@@ -48,12 +48,7 @@ class ObjParser {
   }
 
   float parse_number(const char* what, std::uint64_t id) {
-    const std::string_view word = text_.word_in_line();
-    float value;
-    if (!parse_finite(word, value))
-      text_.fail(what + (" " + std::to_string(id)) + ": '" + std::string(word.substr(0, 40)) +
-                 "' is not a finite number");
-    return value;
+    return text_.number(text_.word_in_line(), what, id);
   }
 
   glm::vec3 parse_vec3(const char* what, std::uint64_t id) {

@@ -57,7 +57,7 @@ void check_counts(const OffHeader& header, const TextCursor& text) {
 
 glm::vec3 read_vec3(TextCursor& text, std::uint64_t vertex) {
   glm::vec3 v;
-  for (int k = 0; k < 3; ++k) v[k] = text.number("vertex", vertex);
+  for (int k = 0; k < 3; ++k) v[k] = text.number(text.word_in_line(), "vertex", vertex);
   return v;
 }
 
@@ -75,9 +75,15 @@ glm::vec3 read_color(TextCursor& text, std::uint64_t vertex) {
   return color;
 }
 
+// A vertex or face a line: reading on past its end would take a wrong count for a right one.
+void start_line(TextCursor& text) {
+  if (text.at_end()) text.fail("the file ends too early");
+}
+
 void read_vertices(TextCursor& text, const OffHeader& header, TriMesh& mesh) {
   mesh.positions.reserve(header.n_vertices);
   for (std::uint64_t v = 0; v < header.n_vertices; ++v) {
+    start_line(text);
     mesh.positions.push_back(read_vec3(text, v));
     if (header.has_normals) mesh.normals.push_back(read_vec3(text, v));
     if (header.has_colors) mesh.colors.push_back(read_color(text, v));
@@ -88,12 +94,15 @@ void read_vertices(TextCursor& text, const OffHeader& header, TriMesh& mesh) {
 void read_faces(TextCursor& text, const OffHeader& header, TriMesh& mesh) {
   mesh.triangles.reserve(header.n_faces);
   std::vector<std::uint32_t> polygon;
+  const auto read_integer = [&text](std::uint64_t face, std::int64_t lo, std::int64_t hi) {
+    return text.integer(text.word_in_line(), "face", face, lo, hi);
+  };
   const auto n_vertices = static_cast<std::int64_t>(header.n_vertices);
   for (std::uint64_t f = 0; f < header.n_faces; ++f) {
-    const std::int64_t n = text.integer("face", f, 3, 1 << 24);
+    start_line(text);
     polygon.clear();
-    for (std::int64_t k = 0; k < n; ++k)
-      polygon.push_back(static_cast<std::uint32_t>(text.integer("face", f, 0, n_vertices - 1)));
+    for (std::int64_t left = read_integer(f, 3, 1 << 24); left > 0; --left)
+      polygon.push_back(static_cast<std::uint32_t>(read_integer(f, 0, n_vertices - 1)));
     append_fan(polygon, mesh.triangles);
     text.skip_line();
   }

@@ -83,7 +83,7 @@ Triangle parse_facet(TextCursor& text, std::uint64_t facet, Welder& welder) {
   for (std::uint32_t& corner : triangle) {
     expect(text, "vertex");
     glm::vec3 p;
-    for (int k = 0; k < 3; ++k) p[k] = text.number("facet", facet);
+    for (int k = 0; k < 3; ++k) p[k] = text.number(text.word(), "facet", facet);
     corner = welder.add(p);
   }
   expect(text, "endloop");

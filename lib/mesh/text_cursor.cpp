@@ -31,6 +31,10 @@ std::string quoted(std::string_view word) {
   return "'" + std::string(word.substr(0, kMost)) + (word.size() > kMost ? "...'" : "'");
 }
 
+std::string named(const char* what, std::uint64_t id) {
+  return what + (" " + std::to_string(id)) + ": ";
+}
+
 }  // namespace
 
 bool parse_finite(std::string_view word, float& out) {
@@ -68,23 +72,22 @@ void TextCursor::skip_line() {
   ++line_;
 }
 
-float TextCursor::number(const char* what, std::uint64_t id) {
-  const std::string_view text = word();
+float TextCursor::number(std::string_view word, const char* what, std::uint64_t id) const {
   float value;
-  if (!parse_finite(text, value))
-    fail(what + (" " + std::to_string(id)) + ": " + quoted(text) + " is not a finite number");
-  return value;
+  if (parse_finite(word, value)) return value;
+  fail(named(what, id) +
+       (word.empty() ? "a number is missing" : quoted(word) + " is not a finite number"));
 }
 
-std::int64_t TextCursor::integer(const char* what, std::uint64_t id, std::int64_t lo,
-                                 std::int64_t hi) {
-  const std::string_view text = word();
+std::int64_t TextCursor::integer(std::string_view word, const char* what, std::uint64_t id,
+                                 std::int64_t lo, std::int64_t hi) const {
   std::int64_t value;
-  const bool is_whole = parse_integer(text, value);
+  const bool is_whole = parse_integer(word, value);
   if (is_whole && value >= lo && value <= hi) return value;
-  const std::string where = what + (" " + std::to_string(id)) + ": " + quoted(text);
-  if (!is_whole) fail(where + " is not a whole number");
-  fail(where + " is not within " + std::to_string(lo) + " to " + std::to_string(hi));
+  if (word.empty()) fail(named(what, id) + "a number is missing");
+  if (!is_whole) fail(named(what, id) + quoted(word) + " is not a whole number");
+  fail(named(what, id) + quoted(word) + " is not within " + std::to_string(lo) + " to " +
+       std::to_string(hi));
 }
 
 void TextCursor::fail(const std::string& what) const {

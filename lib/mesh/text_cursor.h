@@ -32,9 +32,10 @@ class TextCursor {
   /// Leaves the cursor at the start of the next line.
   void skip_line();
 
-  /// what: "vertex 17", for the error.
-  float number(const char* what, std::uint64_t id);
-  std::int64_t integer(const char* what, std::uint64_t id, std::int64_t lo, std::int64_t hi);
+  /// A word as a number; what and id name it in the error ("vertex 17").
+  float number(std::string_view word, const char* what, std::uint64_t id) const;
+  std::int64_t integer(std::string_view word, const char* what, std::uint64_t id, std::int64_t lo,
+                       std::int64_t hi) const;
 
   /// Bytes not walked over yet.
   std::uint64_t bytes_left() const { return text_.size() - at_; }
