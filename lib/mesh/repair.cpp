@@ -1,0 +1,212 @@
+#include "mesh/repair.h"
+
+#include <algorithm>
+#include <numeric>
+#include <span>
+#include <tuple>
+
+namespace viewcell {
+namespace {
+
+bool repeats_index(const Triangle& t) {
+  return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
+}
+
+// Lists of rows by key, made by counting: row i of key k stands in items[starts[k], starts[k + 1]).
+template <typename Item>
+struct Buckets {
+  std::vector<std::uint32_t> starts;
+  std::vector<Item> items;
+
+  auto begin(std::size_t key) { return items.begin() + starts[key]; }
+  auto end(std::size_t key) { return items.begin() + starts[key + 1]; }
+};
+
+// for_each(emit) calls emit(key, item) for every row, twice over in the same order.
+template <typename Item, typename ForEach>
+Buckets<Item> fill_buckets(std::size_t n_keys, const ForEach& for_each) {
+  Buckets<Item> out;
+  out.starts.assign(n_keys + 2, 0);
+  for_each([&](std::uint32_t key, const Item&) { ++out.starts[key + 2]; });
+  std::partial_sum(out.starts.begin(), out.starts.end(), out.starts.begin());
+  out.items.resize(out.starts.back());
+  for_each([&](std::uint32_t key, const Item& item) { out.items[out.starts[key + 1]++] = item; });
+  out.starts.pop_back();
+  return out;
+}
+
+// ---- edges ----
+
+// A half-edge, in the bucket of its lower vertex.
+struct HalfEdge {
+  std::uint32_t higher;
+  bool is_upward;  // from the lower vertex to the higher
+};
+
+void measure_edges(const TriMesh& mesh, MeshTopology& out) {
+  auto buckets = fill_buckets<HalfEdge>(mesh.positions.size(), [&](const auto& emit) {
+    for (const Triangle& t : mesh.triangles)
+      for (std::size_t k = 0; k < 3 && !repeats_index(t); ++k) {
+        const std::uint32_t a = t[k], b = t[(k + 1) % 3];
+        emit(std::min(a, b), HalfEdge{std::max(a, b), a < b});
+      }
+  });
+  for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+    std::sort(buckets.begin(v), buckets.end(v),
+              [](const HalfEdge& a, const HalfEdge& b) { return a.higher < b.higher; });
+    for (auto first = buckets.begin(v); first != buckets.end(v);) {
+      auto last = first;
+      std::size_t n_upward = 0;
+      for (; last != buckets.end(v) && last->higher == first->higher; ++last)
+        n_upward += last->is_upward;
+      ++out.n_edges;
+      if (last - first == 1) ++out.n_boundary_edges;
+      if (last - first == 2 && n_upward != 1) ++out.n_opposed_edges;
+      if (last - first > 2) ++out.n_nonmanifold_edges;
+      first = last;
+    }
+  }
+}
+
+// ---- vertices ----
+
+// The edge opposite to a vertex in one of its triangles.
+struct LinkEdge {
+  std::uint32_t from, to;
+};
+
+// Sets of small numbers, merged.
+class UnionFind {
+ public:
+  explicit UnionFind(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0u); }
+  std::uint32_t find(std::uint32_t i) {
+    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+    return i;
+  }
+  /// True when they were in two sets.
+  bool merge(std::uint32_t a, std::uint32_t b) {
+    a = find(a), b = find(b);
+    parent_[std::max(a, b)] = std::min(a, b);
+    return a != b;
+  }
+
+ private:
+  std::vector<std::uint32_t> parent_;
+};
+
+// True when the edges form one open path or one cycle.
+bool is_path_or_cycle(std::span<const LinkEdge> link) {
+  std::vector<std::uint32_t> names;
+  for (const LinkEdge& e : link) names.push_back(e.from), names.push_back(e.to);
+  std::sort(names.begin(), names.end());
+  for (std::size_t i = 2; i < names.size(); ++i)
+    if (names[i] == names[i - 2]) return false;  // three edges meet
+  names.erase(std::unique(names.begin(), names.end()), names.end());
+  const auto place = [&names](std::uint32_t name) {
+    return static_cast<std::uint32_t>(std::lower_bound(names.begin(), names.end(), name) -
+                                      names.begin());
+  };
+  UnionFind sets(names.size());
+  std::size_t n_sets = names.size();
+  for (const LinkEdge& e : link) n_sets -= sets.merge(place(e.from), place(e.to));
+  return n_sets == 1;
+}
+
+void measure_vertices(const TriMesh& mesh, MeshTopology& out) {
+  auto links = fill_buckets<LinkEdge>(mesh.positions.size(), [&](const auto& emit) {
+    for (const Triangle& t : mesh.triangles)
+      for (std::size_t k = 0; k < 3 && !repeats_index(t); ++k)
+        emit(t[k], LinkEdge{t[(k + 1) % 3], t[(k + 2) % 3]});
+  });
+  UnionFind components(mesh.positions.size());
+  std::size_t n_referenced = 0;
+  for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+    const std::span<const LinkEdge> link(links.begin(v), links.end(v));
+    if (link.empty()) {
+      ++out.n_unreferenced_vertices;
+      continue;
+    }
+    ++n_referenced;
+    ++out.n_components;
+    if (!is_path_or_cycle(link)) ++out.n_nonmanifold_vertices;
+  }
+  std::size_t n_triangles = 0;
+  for (const Triangle& t : mesh.triangles) {
+    if (repeats_index(t)) continue;
+    ++n_triangles;
+    out.n_components -= components.merge(t[0], t[1]);
+    out.n_components -= components.merge(t[0], t[2]);
+  }
+  out.euler_characteristic = static_cast<std::int64_t>(n_referenced + n_triangles) -
+                             static_cast<std::int64_t>(out.n_edges);
+}
+
+// ---- cleaning ----
+
+// Marks triangles that have the same vertices in the same turn as an earlier one.
+std::vector<bool> find_duplicates(const TriMesh& mesh) {
+  struct Row {
+    std::uint32_t second, third, triangle;
+  };
+  auto buckets = fill_buckets<Row>(mesh.positions.size(), [&](const auto& emit) {
+    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+      const Triangle& v = mesh.triangles[t];
+      const auto least = static_cast<std::size_t>(std::min_element(v.begin(), v.end()) - v.begin());
+      emit(v[least], Row{v[(least + 1) % 3], v[(least + 2) % 3], t});
+    }
+  });
+  std::vector<bool> is_duplicate(mesh.triangles.size(), false);
+  for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+    std::sort(buckets.begin(v), buckets.end(v), [](const Row& a, const Row& b) {
+      return std::tie(a.second, a.third, a.triangle) < std::tie(b.second, b.third, b.triangle);
+    });
+    for (auto row = buckets.begin(v); row != buckets.end(v); ++row)
+      if (row != buckets.begin(v) && row->second == (row - 1)->second &&
+          row->third == (row - 1)->third)
+        is_duplicate[row->triangle] = true;
+  }
+  return is_duplicate;
+}
+
+// Keeps what stays, in order; per_triangle values stand together.
+template <typename T>
+void compact(std::vector<T>& values, std::size_t per_triangle, const std::vector<bool>& stays) {
+  if (values.empty()) return;
+  std::size_t n = 0;
+  for (std::size_t t = 0; t < stays.size(); ++t)
+    for (std::size_t k = 0; k < per_triangle && stays[t]; ++k)
+      values[n++] = values[t * per_triangle + k];
+  values.resize(n);
+}
+
+}  // namespace
+
+MeshTopology measure_topology(const TriMesh& mesh) {
+  MeshTopology out;
+  measure_edges(mesh, out);
+  measure_vertices(mesh, out);
+  return out;
+}
+
+MeshDefects clean_mesh(TriMesh& mesh) {
+  MeshDefects defects;
+  const std::vector<bool> is_duplicate = find_duplicates(mesh);
+  std::vector<bool> stays(mesh.triangles.size(), false);
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    if (repeats_index(mesh.triangles[t]))
+      ++defects.n_repeated_index;
+    else if (!(glm::length(area_normal(mesh, mesh.triangles[t])) > 0))
+      ++defects.n_zero_area;
+    else if (is_duplicate[t])
+      ++defects.n_duplicates;
+    else
+      stays[t] = true;
+  }
+  compact(mesh.triangles, 1, stays);
+  compact(mesh.texcoords, 3, stays);
+  compact(mesh.materials, 1, stays);
+  defects.topology = measure_topology(mesh);
+  return defects;
+}
+
+}  // namespace viewcell
