@@ -1,0 +1,75 @@
+// Draws a scene's original geometry, and levels of it, lit.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "gl/framebuffer.h"
+#include "gl/objects.h"
+#include "play/frame_plan.h"
+#include "play/mesh_levels.h"
+
+namespace viewcell {
+
+/// How objects look; the default is how the scene says.
+struct DrawStyle {
+  std::optional<glm::vec3> base_color;  ///< instead of the materials' (linear)
+};
+
+/// Every mesh once in GL memory (20 bytes a vertex, 12 a triangle), plain material colours, back
+/// faces culled unless the material is double-sided. Frames are encoded sRGB (play/shading.h);
+/// alpha is 1 on objects, 0 on ground and sky. Relies on, and leaves, the state of GlContext.
+class SceneRenderer {
+ public:
+  /// levels: by MeshId. gl and scene must outlive this. One thread.
+  SceneRenderer(const Gl& gl, const Scene& scene, const std::vector<MeshLevels>& levels);
+
+  /// Binds and clears the target and draws the ground. The ground neither tests nor writes depth:
+  /// the eye is above it, so what stands on it wins, and what pokes through it shows alike in every
+  /// mode.
+  void draw_background(const GlFramebuffer& target, const glm::dmat4& clip_from_world) const;
+  /// Into the bound framebuffer.
+  void draw_objects(const glm::dmat4& clip_from_world, std::span<const ObjectDraw> draws,
+                    const DrawStyle& style = {}) const;
+
+ private:
+  struct Range {
+    GLsizei n_indices = 0;
+    std::size_t index_offset = 0;  // bytes
+    GLint first_vertex = 0;
+  };
+  struct Program {
+    GlProgram program;
+    GLint clip_from_model = -1, normal_matrix = -1, base_color = -1;
+  };
+  struct Object {
+    glm::dmat4 world_from_model;
+    glm::mat3 rotation;
+    glm::vec3 base_color;
+    MeshId mesh{};
+    bool double_sided = false;
+  };
+
+  void upload(const std::vector<MeshLevels>& levels);
+  Program make_program(const Lighting& lighting, bool double_sided) const;
+
+  const Gl& gl_;
+  std::vector<Object> objects_;
+  std::vector<std::vector<Range>> ranges_;  // by mesh, by level
+  GlBuffer vertices_, indices_;
+  GlVertexArray array_;
+  Program single_sided_, double_sided_;
+  GlProgram ground_program_;
+  GlBuffer ground_vertices_;
+  GlVertexArray ground_array_;
+  glm::dvec3 ground_centre_;
+  std::array<float, 4> sky_;
+};
+
+/// The same picture shifted by so many pixels (right, down): for the yardstick.
+glm::dmat4 shift_pixels(const glm::dmat4& clip_from_world, const glm::dvec2& shift_px, int width_px,
+                        int height_px);
+
+}  // namespace viewcell
