@@ -35,7 +35,7 @@ void add_head(Figure& figure) {
   figure.unite(0.5f, {make_ball({0, -2.5f, 13.6f}, 0.6f)});
   figure.cut_pair(0, 0.5f, {make_ellipsoid({1.1f, -3.1f, 16.3f}, {0.85f, 0.75f, 0.6f})});
   figure.unite_pair(0, 0.15f, {make_ellipsoid({1.0f, -2.3f, 16.25f}, {0.6f, 0.4f, 0.36f})});
-  figure.unite(0.3f, {make_round_cone({0, -2.7f, 16.9f}, 0.36f, {0, -3.15f, 15.4f}, 0.5f)});
+  figure.unite(0.3f, {make_round_cone({0, -2.8f, 16.9f}, 0.38f, {0, -3.5f, 15.4f}, 0.46f)});
   figure.unite_pair(0, 0.2f, {make_ball({0.42f, -2.85f, 15.25f}, 0.36f)});
   figure.unite(0.15f, {make_ellipsoid({0, -2.9f, 14.6f}, {0.85f, 0.45f, 0.24f}),
                        make_ellipsoid({0, -2.85f, 14.15f}, {0.7f, 0.45f, 0.26f})});

@@ -8,10 +8,8 @@ void add_trunk(Figure& figure) {
   figure.unite(0, {make_ellipsoid({-3, 0, 22.5f}, {14, 6.4f, 7})});
   figure.unite(2.5f, {make_ellipsoid({8, 0, 22}, {6.4f, 5.6f, 7})});
   figure.unite(2.5f, {make_ellipsoid({-14, 0, 22.5f}, {5.8f, 5.6f, 6.4f})});
-  figure.unite(3.5f, {make_round_cone({-10, 0, 28}, 4.4f, {-12.2f, 0, 35}, 1.6f)});
-  figure.unite(3.5f, {make_round_cone({3, 0, 28}, 4.6f, {3.6f, 0, 36}, 1.6f)});
-  figure.unite(0.8f, {make_round_cone({3.6f, 0, 36.4f}, 1.5f, {5.4f, 0.6f, 35}, 0.8f)});
-  figure.unite(0.8f, {make_round_cone({-12.2f, 0, 35.4f}, 1.5f, {-14.6f, -0.6f, 33.8f}, 0.8f)});
+  figure.unite(3.5f, {make_round_cone({-10, 0, 28}, 4.4f, {-12, 0, 35.6f}, 1.7f)});
+  figure.unite(3.5f, {make_round_cone({3, 0, 28}, 4.6f, {3.6f, 0, 36.6f}, 1.7f)});
 }
 
 void add_neck_and_head(Figure& figure) {
@@ -30,7 +28,7 @@ void add_neck_and_head(Figure& figure) {
   figure.cut_pair(1, 0.2f, {make_ball({25.2f, 0.8f, 41}, 0.4f)});
   figure.unite_pair(1, 0.3f, {make_ball({20, 1.9f, 42.7f}, 0.75f)});
   figure.unite_pair(1, 0.4f,
-                    {make_round_cone({16.8f, 1.6f, 43.4f}, 0.75f, {15.8f, 2.4f, 45.8f}, 0.4f)});
+                    {make_round_cone({16.8f, 1.6f, 43.2f}, 0.95f, {15.9f, 2.4f, 45.6f}, 0.65f)});
   figure.unite(0.6f, {make_round_cone({16.6f, 0, 44}, 1.3f, {18.6f, 0, 44.6f}, 0.8f)});  // forelock
 }
 

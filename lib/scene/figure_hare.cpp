@@ -67,10 +67,15 @@ void add_head(Figure& figure) {
   figure.cut(0.3f, {make_box({19, 0, 24.6f}, {1.6f, 0.13f, 1.5f}, 0.1f)});
   figure.unite(0.6f, {make_ellipsoid({15.8f, 0, 22.9f}, {2.1f, 1.6f, 1.1f})});
   figure.unite_pair(1, 1.2f, {make_ellipsoid({11.2f, 4.3f, 25}, {3.5f, 2, 3})});  // cheeks
-  figure.cut_pair(1, 0.6f, {make_ellipsoid({13.4f, 5.1f, 28.6f}, {2.1f, 1.4f, 1.7f})});
-  figure.unite_pair(1, 0.15f, {make_ball({13.2f, 3.9f, 28.5f}, 1.45f)});
-  figure.unite_pair(1, 0.25f,
-                    {make_round_cone({11.6f, 4.9f, 30.2f}, 0.45f, {15, 4.2f, 30}, 0.35f)});
+  figure.cut_pair(1, 0.5f,
+                  {make_ellipsoid({13.2f, 5.4f, 28.2f}, {1.9f, 1.2f, 1.35f}, turn_z(-20))});
+  figure.unite_pair(1, 0.2f,
+                    {make_ellipsoid({12.9f, 4.15f, 28.2f}, {1.4f, 0.9f, 1.05f}, turn_z(-20))});
+  const Knot lid[] = {{{11.2f, 4.9f, 28.2f}, 0.3f},
+                      {{12.2f, 5.1f, 29.4f}, 0.42f},
+                      {{13.8f, 4.6f, 29.5f}, 0.42f},
+                      {{15, 3.9f, 28.4f}, 0.3f}};
+  figure.unite_pair(1, 0.5f, make_chain(lid, 4));
 }
 
 // A long hollow ear from its root along the curve; `open`: where the hollow looks.

@@ -53,8 +53,7 @@ double least_z(const TriMesh& mesh) {
   return bounding_box(mesh).lo.z;
 }
 
-// A stationary random function of unit variance whose waves all have the same length, in a space
-// stretched by `scale` beforehand.
+// A stationary random function of unit variance whose waves all have the same length.
 class RandomWaves {
  public:
   RandomWaves(const glm::dvec3& wavelength, std::uint64_t seed) {
@@ -109,22 +108,20 @@ void relax_tangentially(TriMesh& mesh, int n, double floor_height) {
   }
 }
 
-void add_relief(TriMesh& mesh, const Relief& relief, double floor_height) {
+void add_waves(TriMesh& mesh, const Waves& waves, double floor_height) {
   const double edge = mean_edge_length(mesh), floor = least_z(mesh);
-  const RandomWaves grain(glm::dvec3(relief.grain_wavelength_edges * edge), relief.seed);
-  const RandomWaves strokes(relief.stroke_wavelength, relief.seed + 1);
+  const RandomWaves random(waves.wavelength, waves.seed);
   const std::vector<Fan> fans = measure_fans(mesh);
   for (std::size_t v = 0; v < fans.size(); ++v) {
     const Fan& fan = fans[v];
     const glm::dvec3 p(mesh.positions[v]);
     const double length = glm::length(fan.normal_sum);
     if (fan.is_boundary || !(length > 0)) continue;
-    const double own_edge = fan.edge_sum / (2.0 * fan.n_triangles);
-    const double plain = std::clamp(2 - own_edge / edge, 0.0, 1.0);
-    const double above = std::clamp((p.z - floor) / floor_height - 1, 0.0, 1.0);
-    const double height = relief.grain_edges * std::min(own_edge, edge) * grain.value(p) +
-                          (relief.stroke > 0 ? relief.stroke * strokes.value(p) : 0.0);
-    mesh.positions[v] = glm::vec3(p + plain * above * height / length * fan.normal_sum);
+    const double own_edge = fan.edge_sum / (2.0 * fan.n_triangles) / edge;
+    const double damping = std::min(own_edge, 1.0) * std::clamp(3 - own_edge, 0.0, 1.0) *
+                           std::clamp((p.z - floor) / floor_height - 1, 0.0, 1.0);
+    const double height = waves.height * random.value(p);
+    mesh.positions[v] = glm::vec3(p + damping * height / length * fan.normal_sum);
   }
 }
 

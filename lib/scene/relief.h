@@ -7,11 +7,10 @@
 
 namespace viewcell {
 
-struct Relief {
-  double grain_edges = 0.12;            ///< rms height of the grain, in mean edge lengths
-  double grain_wavelength_edges = 2.8;  ///< shortest wavelength of the grain, in mean edge lengths
-  double stroke = 0;                    ///< rms height of strokes (fur, chisel marks), model units
-  glm::dvec3 stroke_wavelength{1};      ///< along x, y and z, model units
+/// Random waves of one length, as heights over a surface.
+struct Waves {
+  double height = 0;         ///< root mean square, model units; never over 2.2 times that
+  glm::dvec3 wavelength{1};  ///< along x, y and z, model units; on a surface no wave is shorter
   std::uint64_t seed = 1;
 };
 
@@ -23,8 +22,8 @@ double mean_edge_length(const TriMesh& mesh);
 /// least) stay.
 void relax_tangentially(TriMesh& mesh, int n, double floor_height);
 
-/// Displaces vertices along their normals by random waves. Nothing moves on the floor, on
-/// boundaries, nor where edges are over twice the mean (a plinth's plain sides).
-void add_relief(TriMesh& mesh, const Relief& relief, double floor_height);
+/// Displaces vertices along their normals. Nothing moves on the floor, on boundaries, nor where
+/// edges are over thrice the mean (a plinth's plain sides); where they are short, less.
+void add_waves(TriMesh& mesh, const Waves& waves, double floor_height);
 
 }  // namespace viewcell

@@ -18,22 +18,24 @@ struct Recipe {
   Figure (*figure)();
   double oversampling;  // triangles of the first mesh, in those of the finished one
   int n_relax;
-  Relief relief;
+  double grain_edges;  // rms height of the grain, in mean edge lengths
+  Waves strokes;       // of fur or chisel, coarser than the grain
 };
+
+// The shortest wavelength of the grain in mean edge lengths: a scan's noise, just above what the
+// mesh can hold.
+constexpr double kGrainEdges = 2.8;
 
 const Recipe& recipe_of(const StatueKind& kind) {
   static const std::array<Recipe, kStatueKinds> recipes{{
-      {make_dragon_figure, 1.12, 2, {.grain_edges = 0.08, .seed = 11}},
-      {make_hare_figure,
-       1.15,
-       2,
-       {.grain_edges = 0.08, .stroke = 0.10, .stroke_wavelength = {1.4, 1.4, 4}, .seed = 12}},
-      {make_robed_figure, 1.4, 1, {.grain_edges = 0.08, .seed = 13}},
-      {make_cattle_figure, 2, 1, {.grain_edges = 0.08, .seed = 14}},
-      {make_horse_figure, 3, 1, {.grain_edges = 0.06, .seed = 15}},
-      {make_moai_figure, 2.5, 1, {.grain_edges = 0.08, .seed = 16}},
-      {make_camel_figure, 3, 1, {.grain_edges = 0.06, .seed = 17}},
-      {make_bust_figure, 5, 0, {.grain_edges = 0.04, .seed = 18}},
+      {make_dragon_figure, 1.12, 2, 0.07, {}},
+      {make_hare_figure, 1.12, 1, 0.06, {0.07, {1.3, 1.3, 4}, 12}},
+      {make_robed_figure, 1.4, 1, 0.08, {}},
+      {make_cattle_figure, 1.8, 1, 0.06, {0.08, {2.2, 2.2, 3.4}, 14}},
+      {make_horse_figure, 3, 1, 0.06, {}},
+      {make_moai_figure, 2, 1, 0.07, {0.045, {2.6, 2.6, 1.5}, 16}},
+      {make_camel_figure, 3, 1, 0.07, {}},
+      {make_bust_figure, 5, 0, 0.04, {}},
   }};
   return recipes[static_cast<std::size_t>(&kind - statue_kinds().data())];
 }
@@ -161,9 +163,12 @@ TriMesh make_statue(const StatueKind& kind, int n_threads) {
   fit_to_size(mesh, kind.size);
   const double floor_height = 1e-3 * kind.size.z;
   if (kind.n_triangles % 2 == 1) open_base(mesh, floor_height);
+  if (recipe.strokes.height > 0) add_waves(mesh, recipe.strokes, floor_height);
   mesh = simplify_to_count(mesh, kind.n_triangles);
   relax_tangentially(mesh, recipe.n_relax, floor_height);
-  add_relief(mesh, recipe.relief, floor_height);
+  const double edge = mean_edge_length(mesh);
+  add_waves(mesh, {recipe.grain_edges * edge, glm::dvec3(kGrainEdges * edge), kind.n_triangles},
+            floor_height);
   fit_to_size(mesh, kind.size);
   mesh.normals = make_area_normals(mesh);
   return mesh;
