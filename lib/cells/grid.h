@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/ids.h"
-#include "cells/convex2.h"
+#include "scene/convex2.h"
 #include "scene/scene.h"
 
 namespace viewcell {

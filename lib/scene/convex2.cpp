@@ -1,4 +1,4 @@
-#include "cells/convex2.h"
+#include "scene/convex2.h"
 
 #include <algorithm>
 #include <limits>
