@@ -1,0 +1,142 @@
+#include "play/hybrid_plan.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace viewcell {
+namespace {
+
+// An angle of nothing at all would take all the weight; a thousandth of a degree does.
+constexpr double kLeastAngle_rad = 2e-5;
+
+double angle_between(const glm::dvec3& a, const glm::dvec3& b) {
+  return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
+}
+
+// Half the widest azimuth from the camera's that some ray of the frame has; pi when the frame holds
+// a vertical direction or nearly.
+double half_azimuth_rad(const Camera& camera) {
+  const double up = std::tan(glm::radians(camera.fov_y_deg) / 2), side = up * camera.aspect;
+  const glm::dvec3 right = glm::normalize(glm::cross(camera.forward, glm::dvec3(0, 0, 1)));
+  const glm::dvec3 above = glm::cross(right, camera.forward);
+  const glm::dvec2 ahead = glm::normalize(glm::dvec2(camera.forward));
+  double widest = 0;
+  for (const double y : {-up, up}) {
+    const glm::dvec2 ray(camera.forward + side * right + y * above);
+    const double along = glm::dot(ray, ahead);
+    if (along < 0.05) return 3.2;
+    widest = std::max(widest, std::atan2(std::abs(ray.x * ahead.y - ray.y * ahead.x), along));
+  }
+  return widest;
+}
+
+struct Ordered {
+  double distance;
+  HybridDraw draw;
+};
+
+void sort_front_to_back(std::vector<Ordered>& draws, std::vector<HybridDraw>& out) {
+  std::sort(draws.begin(), draws.end(), [](const Ordered& a, const Ordered& b) {
+    return a.distance != b.distance ? a.distance < b.distance : a.draw.slot < b.draw.slot;
+  });
+  for (const Ordered& o : draws) out.push_back(o.draw);
+}
+
+void box_corners(const ReadyObject& o, glm::dvec3 (&corners)[8]) {
+  for (int i = 0; i < 8; ++i)
+    corners[i] = {(i & 1) ? o.hi.x : o.lo.x, (i & 2) ? o.hi.y : o.lo.y, (i & 4) ? o.hi.z : o.lo.z};
+}
+
+void plan_inside(const PlanScene& scene, const std::vector<ObjectId>& inside,
+                 const Frustum& frustum, const Camera& camera, HybridPlan& plan) {
+  std::vector<std::pair<double, ObjectId>> visible;
+  for (const ObjectId id : inside) {
+    const SceneObject& object = scene.objects[index(id)];
+    const Box& box = scene.mesh_of(object).box;
+    glm::dvec3 corners[8];
+    make_corners(object, box, corners);
+    if (may_meet(frustum, corners))
+      visible.emplace_back(glm::distance(camera.eye, object.world_from_model(box.centre())), id);
+  }
+  std::sort(visible.begin(), visible.end());
+  for (const auto& [distance, id] : visible) plan.inside.push_back(id);
+}
+
+}  // namespace
+
+ViewChoice choose_views(const glm::dvec3& eye, const glm::dvec3& middle,
+                        const std::array<glm::dvec3, kViews>& centres, unsigned available) {
+  std::vector<std::pair<double, int>> order;
+  for (int k = 0; k < kViews; ++k)
+    if (available >> k & 1)
+      order.emplace_back(
+          angle_between(eye - middle, centres[static_cast<std::size_t>(k)] - middle) +
+              kLeastAngle_rad,
+          k);
+  std::sort(order.begin(), order.end());
+  const std::size_t n = order.size();
+  ViewChoice choice;
+  for (std::size_t i = 0; i < std::min<std::size_t>(n, 3); ++i) choice.view[i] = order[i].second;
+  if (n < 2) return choice;
+  const double third = n > 2 ? 1 / order[2].first : 0;
+  const double a = 1 / order[0].first - third, b = 1 / order[1].first - third;
+  const double sum = a + b;
+  choice.weight[0] = sum > 0 ? static_cast<float>(a / sum) : 0.5f;
+  choice.weight[1] = 1 - choice.weight[0];
+  return choice;
+}
+
+std::uint8_t find_visible_windows(const HexGrid& grid, CellId cell, const Camera& camera) {
+  const double half = half_azimuth_rad(camera);
+  if (half >= glm::radians(90.0)) return 0x3f;
+  const glm::dvec2 eye(camera.eye), ahead = glm::normalize(glm::dvec2(camera.forward));
+  const ConvexPolygon corners = corners_of(grid, place_of(grid, cell));
+  unsigned visible = 0;
+  for (std::size_t face = 0; face < 6; ++face) {
+    // Face k joins corners k and k + 1. It is out of sight when both lie outside the same side of
+    // the wedge.
+    const auto outside = [&](double sign) {
+      const double c = std::cos(half), s = sign * std::sin(half);
+      const glm::dvec2 edge(c * ahead.x - s * ahead.y, s * ahead.x + c * ahead.y);
+      const auto beyond = [&](const glm::dvec2& p) {
+        const glm::dvec2 d = p - eye;
+        return sign * (edge.x * d.y - edge.y * d.x) > 1e-9 * grid.size;
+      };
+      return beyond(corners[face]) && beyond(corners[(face + 1) % 6]);
+    };
+    if (!outside(1) && !outside(-1)) visible |= 1u << face;
+  }
+  return static_cast<std::uint8_t>(visible);
+}
+
+HybridPlan plan_hybrid(const PlanScene& scene, const CellSet& cells, const ReadyCell& cell,
+                       const ViewsAvailable& views, const Camera& camera) {
+  HybridPlan plan;
+  const Frustum frustum = make_frustum(camera);
+  const std::uint8_t windows = find_visible_windows(cells.grid, cell.cell, camera);
+  std::array<glm::dvec3, kViews> centres;
+  const auto ids = views_of(cells.grid, cell.cell);
+  for (std::size_t k = 0; k < ids.size(); ++k) centres[k] = eye_of(cells, ids[k]);
+
+  std::vector<Ordered> multi, single;
+  for (std::size_t slot = 0; slot < cell.objects.size(); ++slot) {
+    const ReadyObject& o = cell.objects[slot];
+    if (o.n_indices == 0 || (o.windows & windows) == 0) continue;
+    glm::dvec3 corners[8];
+    box_corners(o, corners);
+    if (!may_meet(frustum, corners)) continue;
+    const glm::dvec3 middle = 0.5 * (glm::dvec3(o.lo) + glm::dvec3(o.hi));
+    const bool is_single = o.kind == Representation::single_view;
+    const unsigned available = views[slot] & (is_single ? 1u : 0x7fu);
+    const HybridDraw draw{static_cast<std::uint16_t>(slot),
+                          choose_views(camera.eye, middle, centres, available)};
+    (is_single ? single : multi).push_back({glm::distance(camera.eye, middle), draw});
+    plan.n_triangles += o.n_indices / 3;
+  }
+  sort_front_to_back(multi, plan.multi_view);
+  sort_front_to_back(single, plan.single_view);
+  plan_inside(scene, cells.inside[index(cell.cell)], frustum, camera, plan);
+  return plan;
+}
+
+}  // namespace viewcell

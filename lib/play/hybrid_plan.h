@@ -1,0 +1,47 @@
+// What a hybrid frame draws of a cell, as a pure function of cell and camera.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "play/frame_plan.h"
+#include "play/ready_cell.h"
+
+namespace viewcell {
+
+/// The views that an object of a cell may be textured from: bit k, of the cell's seven centres.
+using ViewsAvailable = std::vector<std::uint8_t>;  // by slot
+
+/// The two best views of an object and the next, which takes over where both are blind.
+struct ViewChoice {
+  std::array<int, 3> view{-1, -1, -1};  ///< 0..6; -1: none
+  std::array<float, 2> weight{1, 0};    ///< of the first two; they sum to 1
+};
+
+/// By the angles at the object's middle between the eye and each available view [Chen06 5.2.2]. A
+/// view's weight vanishes as its angle grows to the third's, so that nothing pops when the choice
+/// changes (trap 20).
+ViewChoice choose_views(const glm::dvec3& eye, const glm::dvec3& middle,
+                        const std::array<glm::dvec3, kViews>& centres, unsigned available);
+
+struct HybridDraw {
+  std::uint16_t slot = 0;
+  ViewChoice views;
+};
+
+struct HybridPlan {
+  std::vector<ObjectId> inside;         ///< drawn as they are, front to back
+  std::vector<HybridDraw> multi_view;   ///< front to back
+  std::vector<HybridDraw> single_view;  ///< front to back
+  std::size_t n_triangles = 0;          ///< of the outside objects
+};
+
+/// The side faces that a camera inside the cell may look through: bit k (window culling [Chen06
+/// 5.2.2]). All six when it looks so far up or down that the horizon leaves the frame.
+std::uint8_t find_visible_windows(const HexGrid& grid, CellId cell, const Camera& camera);
+
+/// Window culling, then frustum culling, of a cell's outside objects; inside objects by frustum.
+HybridPlan plan_hybrid(const PlanScene& scene, const CellSet& cells, const ReadyCell& cell,
+                       const ViewsAvailable& views, const Camera& camera);
+
+}  // namespace viewcell

@@ -1,0 +1,72 @@
+// The modes of play over one bundle: each draws any camera, timed as a user would see it.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "gl/context.h"
+#include "play/hybrid_renderer.h"
+#include "play/raycast.h"
+#include "play/scene_renderer.h"
+
+namespace viewcell {
+
+enum class Mode { geometry, frustum, lod, hybrid, raycast };
+/// "geometry", ...; throws UsageError for another name.
+Mode parse_mode(const std::string& name);
+const char* mode_name(Mode mode);
+
+struct PlayerOptions {
+  int width_px = 1024, height_px = 1024;
+  GlEngine engine = GlEngine::kOsmesa;
+  int n_threads = 0;
+  ResidencyOptions residency;
+  HybridOptions hybrid;
+  bool with_lod = false;      ///< mode lod will be drawn: build its levels
+  bool with_raycast = false;  ///< mode raycast will be drawn: build its hierarchies
+};
+
+/// What drawing one frame took. Times are wall clock until the picture is complete; what a mode
+/// must load or upload counts.
+struct DrawnFrame {
+  double ms = 0;
+  std::size_t n_triangles = 0;
+  std::size_t n_draws = 0;
+  std::size_t texture_bytes = 0;  ///< resident
+};
+
+class Player {
+ public:
+  /// The bundle must outlive this.
+  Player(const Bundle& bundle, const PlayerOptions& options);
+
+  DrawnFrame draw(Mode mode, const Camera& camera);
+  /// The picture that draw() made last. Not part of its time.
+  ImageRgba8 read(Mode mode) const;
+  /// The frustum mode's picture moved by some pixels, for the yardstick.
+  ImageRgba8 draw_shifted(const Camera& camera, const glm::dvec2& shift_px);
+  /// Hybrid, outside objects in colours of their kind.
+  ImageRgba8 draw_kinds(const Camera& camera, HybridStyle style);
+
+  const GlContext& context() const { return context_; }
+  const Residency& residency() const { return residency_; }
+
+ private:
+  DrawnFrame draw_plan(const FramePlan& plan, const glm::dmat4& clip);
+  DrawnFrame draw_hybrid(const Camera& camera, HybridStyle style);
+
+  const Bundle& bundle_;
+  PlayerOptions options_;
+  GlContext context_;
+  std::vector<MeshLevels> levels_;
+  PlanScene plan_scene_;
+  GlFramebuffer target_;
+  SceneRenderer scene_renderer_;
+  Residency residency_;
+  HybridRenderer hybrid_renderer_;
+  std::unique_ptr<RayCaster> ray_caster_;
+  ImageRgba8 ray_image_;
+};
+
+}  // namespace viewcell

@@ -1,0 +1,38 @@
+// A cell's geometry made ready for the GPU, on the loading thread.
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "bake/bundle.h"
+
+namespace viewcell {
+
+/// Positions are relative to the cell's centre eye, so that floats stay exact near it.
+struct HybridVertex {
+  glm::vec3 position;
+  std::int16_t normal[4];  ///< world, of 32767; the fourth is padding
+};
+static_assert(sizeof(HybridVertex) == 20);
+
+struct ReadyObject {
+  ObjectId object{};
+  Representation kind = Representation::single_view;
+  std::uint32_t first_index = 0, n_indices = 0;
+  glm::vec3 lo{0}, hi{0};    ///< world box
+  std::uint8_t windows = 0;  ///< bit k: some of it lies beyond side face k of the cell
+};
+
+struct ReadyCell {
+  CellId cell{};
+  glm::dvec3 origin{0};
+  std::vector<ReadyObject> objects;
+  std::vector<HybridVertex> vertices;
+  std::vector<std::uint32_t> indices;
+};
+
+ReadyCell make_ready_cell(const Scene& scene, const CellSet& cells, CellId cell,
+                          const CellGeometry& geometry);
+
+}  // namespace viewcell
