@@ -123,8 +123,9 @@ ImageRgba8 read_image_rgba8(const std::filesystem::path& path) {
   std::string bytes = read_file(path, kMaxFileBytes);
   const ImageFormat format = check_image_header(bytes, file);
   OIIO::Filesystem::IOMemReader memory(bytes.data(), bytes.size());
-  const auto input = OIIO::ImageInput::create(name_of(format), false, nullptr, &memory);
-  if (!input) throw MachineError(std::string("OpenImageIO cannot read ") + name_of(format));
+  const auto input = OIIO::ImageInput::create(name_of(format), false);
+  if (!input || !input->set_ioproxy(&memory))
+    throw MachineError(std::string("OpenImageIO cannot read ") + name_of(format));
   OIIO::ImageSpec spec, hints;
   hints.attribute("oiio:UnassociatedAlpha", 1);
   if (!input->open(file, spec, hints)) throw InputError(file, "", first_line(input->geterror()));

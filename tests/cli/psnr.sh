@@ -1,0 +1,113 @@
+#!/usr/bin/env bash
+# Types psnr's commands and holds exit codes, streams and reports. First argument: the folder of
+# binaries.
+set -euo pipefail
+psnr=$1/psnr
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cd "$work"
+
+fail() { echo "psnr.sh: $*" >&2; exit 1; }
+
+# expect CODE COMMAND...: the exit code; stdout and stderr go to out and err.
+expect() {
+  local code=$1 got=0
+  shift
+  "$@" >out 2>err </dev/null || got=$?
+  [ "$got" -eq "$code" ] || { cat out err >&2; fail "'$*' exits with $got, not $code"; }
+}
+# An error: nothing on stdout, one line on stderr that begins with the tool's name and has the text.
+expect_error() {
+  local code=$1 text=$2
+  shift 2
+  expect "$code" "$@"
+  [ ! -s out ] || fail "'$*' writes to stdout"
+  [ "$(wc -l <err)" -eq 1 ] || { cat err >&2; fail "'$*': not one line on stderr"; }
+  grep -q "^psnr: " err || fail "'$*': $(cat err)"
+  grep -qF -- "$text" err || fail "'$*': no '$text' in: $(cat err)"
+}
+# Gray pictures: a is 100 everywhere, b 101, both 20 x 15; turned is 15 x 20; huge says that it is
+# 60000 x 60000.
+base64 -d >a.png <<<iVBORw0KGgoAAAANSUhEUgAAABQAAAAPCAAAAADB87CJAAAAEUlEQVR42mNIwQIYRgWJEAQAHnt1MQgniOIAAAAASUVORK5CYII=
+base64 -d >b.png <<<iVBORw0KGgoAAAANSUhEUgAAABQAAAAPCAAAAADB87CJAAAAEUlEQVR42mNIxQIYRgWJEAQA1w12XfyOKaoAAAAASUVORK5CYII=
+base64 -d >turned.png <<<iVBORw0KGgoAAAANSUhEUgAAAA8AAAAUCAAAAAB3rDjOAAAAEElEQVR42mNIQQUMo3yS+ABDh3UxH8eBBAAAAABJRU5ErkJggg==
+base64 -d >huge.png <<<iVBORw0KGgoAAAANSUhEUgAA6mAAAOpgCAAAAACluSqeAAAACklEQVR42mNIAQAAZgBl1yi8HwAAAABJRU5ErkJggg==
+
+# The words and the numbers.
+expect 0 "$psnr" --help
+grep -q "Example:" out || fail "--help has no example"
+expect 0 "$psnr" --version
+expect 0 "$psnr" a.png a.png
+grep -q "100.000" out || fail "identical pictures are not at 100 dB"
+expect 0 "$psnr" a.png b.png
+grep -q "48.131" out || fail "an offset of one is not 48.131 dB: $(cat out)"
+[ ! -s err ] || fail "words on stderr: $(cat err)"
+
+# JSON, alone on stdout when asked for there.
+expect 0 "$psnr" a.png b.png --json -
+head -c 1 out | grep -q "{" || fail "stdout is not only JSON"
+for key in psnr_db psnr_covered_db ssim snr_db rms max_abs width_px height_px; do
+  grep -q "\"$key\": " out || fail "no $key in the report"
+done
+grep -q '"max_abs": 1.0' out || fail "max_abs"
+expect 0 "$psnr" a.png b.png --json report.json -o table.txt
+[ ! -s out ] && [ -s report.json ] && [ -s table.txt ] || fail "-o and --json"
+expect 0 "$psnr" a.png b.png --no-ssim --json -
+grep -q '"ssim": null' out || fail "--no-ssim"
+
+# Standard input for either.
+got=0; "$psnr" - b.png <a.png >out || got=$?
+[ $got -eq 0 ] && grep -q "48.131" out || fail "reference from stdin"
+got=0; "$psnr" a.png - <b.png >out || got=$?
+[ $got -eq 0 ] && grep -q "48.131" out || fail "tested picture from stdin"
+
+# The threshold.
+expect 0 "$psnr" a.png b.png --fail-below 48
+expect 5 "$psnr" a.png b.png --fail-below 49
+grep -q "48.131" out || fail "no table beside exit code 5"
+
+# Folders.
+mkdir A B
+for i in 1 2 3; do cp a.png "A/$i.png"; cp b.png "B/$i.png"; done
+cp a.png B/2.png
+expect 0 "$psnr" A B --json -
+grep -q '"pairs"' out && grep -q '"summary"' out && grep -q '"name": "3.png"' out || fail "folders"
+cp out first
+for j in 1 2 8; do
+  expect 0 "$psnr" A B --json - -j $j
+  cmp -s out first || fail "-j $j gives another report"
+done
+expect 5 "$psnr" A B --fail-below 60
+expect 0 "$psnr" A B --diff D --gain 100
+[ -s D/1.png ] && [ -s D/3.png ] || fail "no difference pictures"
+expect 0 "$psnr" a.png b.png --diff d.png
+expect 0 "$psnr" a.png b.png --diff d2.png
+cmp -s d.png d2.png || fail "--diff is not the same twice"
+rm B/3.png
+expect_error 1 "has no '3.png'" "$psnr" A B
+
+# Misuse.
+expect_error 2 "TESTED is required" "$psnr" a.png
+expect_error 2 "two pictures or two folders" "$psnr" a.png A
+expect_error 2 "standard input" "$psnr" - -
+expect_error 2 "--gain" "$psnr" a.png b.png --gain nan
+expect_error 2 "--colour" "$psnr" a.png b.png --colour
+
+# Bad input.
+expect_error 1 "missing.png" "$psnr" a.png missing.png
+expect_error 1 "missing: does not exist" "$psnr" A missing
+expect_error 1 "turned.png: is 15 x 20 pixels" "$psnr" a.png turned.png
+: >empty.png
+expect_error 1 "empty.png" "$psnr" a.png empty.png
+head -c 60 a.png >cut.png
+expect_error 1 "cut.png" "$psnr" a.png cut.png
+expect_error 1 "60000 x 60000 pixels" "$psnr" a.png huge.png
+printf 'v 0 0 0\n' >text.png
+expect_error 1 "text.png: is not a PNG" "$psnr" a.png text.png
+mkdir E
+expect_error 1 "E: has no pictures" "$psnr" A E
+
+# The machine's fault, and nothing left behind.
+expect_error 3 "no/d.png" "$psnr" a.png b.png --diff no/d.png
+[ -z "$(find . -name '.tmp-*')" ] || fail "temporaries are left"
+echo "psnr.sh: all well"
