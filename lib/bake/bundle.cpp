@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/section_file.h"
+#include "base/srgb.h"
 
 namespace viewcell {
 namespace fs = std::filesystem;
@@ -186,8 +187,8 @@ void append_tile(const CaptureTile& tile, CentreTextures& textures) {
   for (std::size_t i = 0; i < depths.size(); ++i) {
     const RgbaFloat& c = tile.color.pixels[i];
     const double code = std::clamp(out.code_scale * depths[i] + out.code_bias, 0.0, 255.0);
-    textures.texels.push_back({srgb_encode_8bit(c[0]), srgb_encode_8bit(c[1]),
-                               srgb_encode_8bit(c[2]), static_cast<std::uint8_t>(code + 0.5)});
+    textures.texels.push_back({srgb8_from_linear(c[0]), srgb8_from_linear(c[1]),
+                               srgb8_from_linear(c[2]), static_cast<std::uint8_t>(code + 0.5)});
   }
 }
 

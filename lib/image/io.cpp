@@ -11,6 +11,7 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "base/srgb.h"
 #include "image/header.h"
 #include "image/library.h"
 
@@ -108,14 +109,6 @@ ImageRgba8 read_pixels(OIIO::ImageInput& input, const OIIO::ImageSpec& spec, Ima
 }
 
 }  // namespace
-
-std::uint8_t srgb8_from_linear(float linear) {
-  if (!(linear > 0)) return 0;
-  if (linear >= 1) return 255;
-  const double encoded =
-      linear <= 0.0031308f ? 12.92 * linear : 1.055 * std::pow(double{linear}, 1 / 2.4) - 0.055;
-  return static_cast<std::uint8_t>(std::lround(255 * encoded));
-}
 
 ImageRgba8 read_image_rgba8(const std::filesystem::path& path) {
   configure_openimageio();

@@ -17,9 +17,6 @@ namespace viewcell {
 /// alpha, so where alpha is small it comes back coarse, and 0 where alpha is 0.
 ImageRgba8 read_image_rgba8(const std::filesystem::path& file);
 
-/// Linear light to the sRGB code value, rounded; clamps to [0, 1] and takes NaN for 0.
-std::uint8_t srgb8_from_linear(float linear);
-
 enum class PngAlpha {
   keep,
   drop,  ///< write RGB only: for pictures to look at, whose ground would show as transparent

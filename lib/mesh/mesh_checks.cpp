@@ -77,15 +77,4 @@ void normalize_normals(TriMesh& mesh) {
   }
 }
 
-float linear_from_srgb(float encoded) {
-  const double s = std::fmin(std::fmax(static_cast<double>(encoded), 0.0), 1.0);
-  return static_cast<float>(s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4));
-}
-
-std::uint8_t srgb8_from_linear(float linear) {
-  const double x = std::fmin(std::fmax(static_cast<double>(linear), 0.0), 1.0);
-  const double s = x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1 / 2.4) - 0.055;
-  return static_cast<std::uint8_t>(std::lround(255 * s));
-}
-
 }  // namespace viewcell

@@ -3,6 +3,7 @@
 // word, wraps the index 99999999999 to 1215752190, and keeps a polygon's length in 8 bits.
 #include "base/error.h"
 #include "base/file.h"
+#include "base/srgb.h"
 #include "mesh/material_ids.h"
 #include "mesh/readers.h"
 #include "mesh/text_cursor.h"
@@ -67,8 +68,7 @@ class ObjParser {
     if (more.size() < 3) return;
     mesh_.colors.resize(vertex, glm::vec3(1));
     const float* rgb = more.data() + more.size() - 3;
-    mesh_.colors.emplace_back(linear_from_srgb(rgb[0]), linear_from_srgb(rgb[1]),
-                              linear_from_srgb(rgb[2]));
+    mesh_.colors.emplace_back(srgb_decode(rgb[0]), srgb_decode(rgb[1]), srgb_decode(rgb[2]));
   }
 
   void parse_texcoord() {

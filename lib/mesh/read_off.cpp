@@ -1,5 +1,6 @@
 // Source: the Object File Format of Geomview.
 #include "base/error.h"
+#include "base/srgb.h"
 #include "mesh/readers.h"
 #include "mesh/text_cursor.h"
 
@@ -70,7 +71,7 @@ glm::vec3 read_color(TextCursor& text, std::uint64_t vertex) {
     if (!parse_finite(word, value))
       text.fail("vertex " + std::to_string(vertex) + ": expected a colour");
     std::int64_t ignored;
-    color[k] = linear_from_srgb(parse_integer(word, ignored) ? value / 255 : value);
+    color[k] = srgb_decode(parse_integer(word, ignored) ? value / 255 : value);
   }
   return color;
 }

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "base/file.h"
+#include "base/srgb.h"
 #include "mesh/io.h"
 #include "mesh/ply.h"
 #include "mesh/readers.h"
@@ -26,7 +27,7 @@ std::vector<glm::vec3> read_colors(const PlyDocument& ply) {
   std::vector<glm::vec3> colors = ply.vec3s("vertex", "red", "green", "blue");
   const bool is_float = ply.column("vertex", "red").type() >= PlyType::kFloat;
   for (glm::vec3& color : colors)
-    for (int k = 0; k < 3; ++k) color[k] = linear_from_srgb(is_float ? color[k] : color[k] / 255);
+    for (int k = 0; k < 3; ++k) color[k] = srgb_decode(is_float ? color[k] : color[k] / 255);
   return colors;
 }
 

@@ -38,8 +38,4 @@ void check_mesh(const TriMesh& mesh, const std::string& file);
 /// Normals of unit length; a zero normal is computed from the triangles around its vertex.
 void normalize_normals(TriMesh& mesh);
 
-/// The sRGB curve (IEC 61966-2-1), clamped to [0, 1], and its inverse as a byte.
-float linear_from_srgb(float encoded);
-std::uint8_t srgb8_from_linear(float linear);
-
 }  // namespace viewcell

@@ -11,6 +11,7 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
+#include "base/srgb.h"
 #include "play/ground.h"
 
 namespace viewcell {
@@ -158,7 +159,7 @@ RayCaster::Impl::Impl(const Scene& scene_in, int n_threads_in)
   if (!device) throw MachineError("Embree: cannot start");
   for (int i = 0; i < kTableSize; ++i)
     srgb_table[static_cast<std::size_t>(i)] =
-        srgb_encode_8bit(static_cast<float>(i) / (kTableSize - 1));
+        srgb8_from_linear(static_cast<float>(i) / (kTableSize - 1));
   sky = encode(scene.lighting.sky_color, 0);
   ground = encode(scene.lighting.ground_color, 0);
   for (const SceneMesh& mesh : scene.meshes)

@@ -3,6 +3,8 @@
 
 #include <glm/glm.hpp>
 
+#include "base/srgb.h"
+
 namespace viewcell {
 
 /// One directional light and an ambient that goes from ground to sky with the normal's z.
@@ -23,16 +25,5 @@ inline glm::vec3 shade(const Lighting& l, const glm::vec3& base_color, const glm
   return base_color * (lambert * l.light + ambient);
 }
 
-/// The sRGB curve (IEC 61966-2-1), clamped to [0, 1].
-float srgb_encode(float linear);
-float srgb_decode(float encoded);
 glm::vec3 srgb_encode(const glm::vec3& linear);
-/// 8 bits, rounded to nearest.
-unsigned char srgb_encode_8bit(float linear);
-
-/// GLSL twins of shade() and srgb_encode(): text to put into a shader. It declares
-///   layout(std140, binding = 0) uniform LightingBlock { vec4 toward_light, light, ambient_sky,
-///   ambient_ground; };  vec3 shade(vec3 base_color, vec3 normal);  vec3 srgb_encode(vec3);
-extern const char* const kLightingGlsl;
-
 }  // namespace viewcell

@@ -10,6 +10,7 @@
 #include <limits>
 #include <thread>
 
+#include "base/srgb.h"
 #include "base/error.h"
 #include "base/file.h"
 #include "image/header.h"

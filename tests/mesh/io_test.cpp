@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "base/srgb.h"
 #include "mesh/cube.h"
 #include "mesh/expect_input_error.h"
 #include "mesh/mutate.h"
@@ -204,7 +205,7 @@ TEST(WritePly, ReadsBackTheSame) {
   TriMesh mesh = cube();
   mesh.normals = make_vertex_normals(mesh);
   for (int v = 0; v < 8; ++v)
-    mesh.colors.emplace_back(linear_from_srgb(static_cast<float>(v) / 255.0f));
+    mesh.colors.emplace_back(srgb_decode(static_cast<float>(v) / 255.0f));
   write_ply(folder.path() / "out.ply", mesh, {"made by a test"});
   const TriMesh again = read_mesh(folder.path() / "out.ply");
   EXPECT_EQ(again.positions, mesh.positions);
@@ -216,7 +217,7 @@ TEST(WritePly, ReadsBackTheSame) {
 
 TEST(Srgb, EveryByteComesBack) {
   for (int i = 0; i < 256; ++i)
-    EXPECT_EQ(srgb8_from_linear(linear_from_srgb(static_cast<float>(i) / 255)), i);
+    EXPECT_EQ(srgb8_from_linear(srgb_decode(static_cast<float>(i) / 255)), i);
 }
 
 // ---- OFF ----

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/srgb.h"
 #include "gl_fixture.h"
 #include "play/raycast.h"
 #include "play/shading.h"
@@ -36,7 +37,7 @@ int most_difference(const Rgba8& a, const Rgba8& b) {
 }
 
 Rgba8 encoded(const glm::vec3& linear, std::uint8_t alpha) {
-  return {srgb_encode_8bit(linear.x), srgb_encode_8bit(linear.y), srgb_encode_8bit(linear.z),
+  return {srgb8_from_linear(linear.x), srgb8_from_linear(linear.y), srgb8_from_linear(linear.z),
           alpha};
 }
 
