@@ -34,16 +34,16 @@ TEST(MeshLevels, OrderChangesNoFace) {
   TriMesh mesh = make_torus(30, 20);
   mesh.positions.push_back({9, 9, 9});  // used by no triangle
   mesh.normals.push_back({0, 0, 1});
-  const TriMesh ordered = optimise_order(mesh);
+  const TriMesh ordered = optimize_order(mesh);
   EXPECT_EQ(ordered.positions.size(), mesh.positions.size() - 1);
   EXPECT_EQ(sorted_faces(ordered), sorted_faces(mesh));
 }
 
 TEST(MeshLevels, EmptyMeshStaysEmpty) {
-  EXPECT_TRUE(optimise_order(TriMesh{}).positions.empty());
+  EXPECT_TRUE(optimize_order(TriMesh{}).positions.empty());
 }
 
-TEST(MeshLevels, LevelsHalveAndErrorsGrow) {
+TEST(MeshLevels, LevelsShrinkAndErrorsGrow) {
   const TriMesh mesh = make_torus(80, 40);
   const MeshLevels levels = build_mesh_levels(mesh);
   ASSERT_GE(levels.size(), 6u);
