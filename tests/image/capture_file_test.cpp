@@ -169,7 +169,7 @@ TEST(CaptureFileTest, TruncatedAnywhereIsRefusedByOpening) {
     for (int i = 0; i < 50; ++i) {
       const auto n = static_cast<std::uint32_t>(bytes.size());
       const std::size_t length = i == 0 ? n - 1 : random.below(n);
-      write_file(folder / "cut.exr", bytes.substr(0, length));
+      put_bytes(folder / "cut.exr", bytes.substr(0, length));
       try {
         const CaptureFile file(folder / "cut.exr");
         ADD_FAILURE() << n_parts << " parts cut to " << length << " of " << n << " bytes";
@@ -195,7 +195,7 @@ TEST(CaptureFileTest, CorruptFilesReadOrAreRefused) {
       const auto reach = k < 2 ? std::min<std::size_t>(bad.size(), 3000) : bad.size();
       bad[random.below(static_cast<std::uint32_t>(reach))] = static_cast<char>(random.below(256));
     }
-    write_file(folder / "bad.exr", bad);
+    put_bytes(folder / "bad.exr", bad);
     error_of_reading(folder / "bad.exr");
   }
 }
@@ -210,7 +210,7 @@ TEST(CaptureFileTest, AbsurdWindowsAndPartsAreRefusedBeforeAnythingIsAllocated) 
   const auto with_window = [&](std::vector<std::int32_t> box) {
     std::string bad = bytes;
     bad.replace(at, 16, reinterpret_cast<const char*>(box.data()), 16);
-    write_file(folder / "bad.exr", bad);
+    put_bytes(folder / "bad.exr", bad);
     return error_of_reading(folder / "bad.exr");
   };
   EXPECT_NE(with_window({0, 0, 2000000000, 7}).find("reaches 2000000000"), std::string::npos);

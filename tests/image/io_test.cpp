@@ -10,9 +10,9 @@
 #include <limits>
 #include <thread>
 
-#include "base/srgb.h"
 #include "base/error.h"
 #include "base/file.h"
+#include "base/srgb.h"
 #include "image/header.h"
 #include "random_image.h"
 #include "temporary_folder.h"
@@ -233,7 +233,7 @@ TEST(ImageRead, TruncatedFilesNeverReadAsSomethingElse) {
     int n_refused = 0;
     for (int i = 0; i < 50; ++i) {
       const std::size_t length = random.below(static_cast<std::uint32_t>(bytes.size()));
-      write_file(folder / "cut", bytes.substr(0, length));
+      put_bytes(folder / "cut", bytes.substr(0, length));
       try {
         EXPECT_EQ(read_image_rgba8(folder / "cut").pixels, whole.pixels) << name << " " << length;
       } catch (const InputError& error) {
@@ -264,7 +264,7 @@ TEST(ImageRead, CorruptFilesReadOrAreRefused) {
         const auto reach = k % 2 ? bad.size() : std::min<std::size_t>(bad.size(), 400);
         bad[random.below(static_cast<std::uint32_t>(reach))] = static_cast<char>(random.below(256));
       }
-      write_file(folder / "bad", bad);
+      put_bytes(folder / "bad", bad);
       error_of_reading(folder / "bad");
     }
   }
