@@ -14,7 +14,7 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little);
 
-constexpr std::size_t kMostLineBytes = 1 << 16;  // provenance comments may be long
+constexpr std::size_t kMostLineBytes = 1 << 20;  // provenance comments may be long
 constexpr std::size_t kMostHeaderLines = 1 << 14;
 constexpr std::size_t kMostElements = 64;
 constexpr std::size_t kMostProperties = 256;

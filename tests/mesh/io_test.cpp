@@ -204,8 +204,7 @@ TEST(WritePly, ReadsBackTheSame) {
   const TemporaryFolder folder;
   TriMesh mesh = cube();
   mesh.normals = make_vertex_normals(mesh);
-  for (int v = 0; v < 8; ++v)
-    mesh.colors.emplace_back(srgb_decode(static_cast<float>(v) / 255.0f));
+  for (int v = 0; v < 8; ++v) mesh.colors.emplace_back(srgb_decode(static_cast<float>(v) / 255.0f));
   write_ply(folder.path() / "out.ply", mesh, {"made by a test"});
   const TriMesh again = read_mesh(folder.path() / "out.ply");
   EXPECT_EQ(again.positions, mesh.positions);

@@ -228,7 +228,7 @@ TEST(Ply, MalformedHeadersAreRefused) {
   bad("element vertex 4\n", "", "before the first element");
   bad("property uchar views", "what is this", "expected comment");
   bad("element vertex", "element void 1000000000000000000\nelement vertex", "is empty");
-  EXPECT_INPUT_ERROR(parse("ply\nformat ascii 1.0\n" + std::string(1 << 20, 'x')), "too long");
+  EXPECT_INPUT_ERROR(parse("ply\nformat ascii 1.0\n" + std::string(1 << 21, 'x')), "too long");
   std::string many = "ply\nformat ascii 1.0\n";
   for (int i = 0; i < 100000; ++i) many += "comment\n";
   EXPECT_INPUT_ERROR(parse(many), "too many lines");
