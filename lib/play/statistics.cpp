@@ -1,0 +1,219 @@
+#include "play/statistics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <functional>
+
+#include "base/error.h"
+#include "image/metrics.h"
+
+namespace viewcell {
+namespace {
+
+using Quality = std::function<const PictureQuality&(std::size_t frame)>;
+
+double percentile(const std::vector<double>& sorted, double p) {
+  const double at = p * static_cast<double>(sorted.size() - 1);
+  const auto below = static_cast<std::size_t>(at);
+  const std::size_t above = std::min(below + 1, sorted.size() - 1);
+  return std::lerp(sorted[below], sorted[above], at - static_cast<double>(below));
+}
+
+double mean_of(std::span<const double> values) {
+  double sum = 0;
+  for (const double x : values) sum += x;
+  return values.empty() ? kNotMeasured : sum / static_cast<double>(values.size());
+}
+
+// The values of one field over a mode's frames.
+template <typename Field>
+std::vector<double> values_of(const ModeTimeline& mode, Field field) {
+  std::vector<double> values;
+  for (const FrameRecord& frame : mode.frames) values.push_back(static_cast<double>(frame.*field));
+  return values;
+}
+
+// JSON has no NaN.
+Json number_or_null(double x) {
+  return std::isfinite(x) ? Json(x) : Json(nullptr);
+}
+
+struct Decibels {
+  Summary summary;
+  double of_mse = kNotMeasured;
+};
+
+// covered: over covered pixels, of frames that have any.
+Decibels summarize_db(std::size_t n_frames, const Quality& quality, bool covered) {
+  std::vector<double> db, mse;
+  double n_px = 0, squares = 0;
+  for (std::size_t i = 0; i < n_frames; ++i) {
+    const PictureQuality& q = quality(i);
+    if (std::isnan(q.psnr_db) || (covered && q.n_covered_px == 0)) continue;
+    db.push_back(covered ? q.psnr_covered_db : q.psnr_db);
+    const double weight = covered ? static_cast<double>(q.n_covered_px) : 1;
+    n_px += weight;
+    squares += weight * (covered ? q.mse_covered : q.mse);
+  }
+  return {summarize(db), n_px > 0 ? psnr_db_of(squares / n_px) : kNotMeasured};
+}
+
+Json to_json(const Decibels& d) {
+  return {{"mean", number_or_null(d.summary.mean)},
+          {"min", number_or_null(d.summary.min)},
+          {"p5", number_or_null(d.summary.p5)},
+          {"of_mse", number_or_null(d.of_mse)}};
+}
+
+Quality quality_of(const ModeTimeline& mode) {
+  return [&mode](std::size_t i) -> const PictureQuality& { return mode.frames[i].quality; };
+}
+
+Quality yardstick_of(const Timeline& timeline) {
+  return
+      [&timeline](std::size_t i) -> const PictureQuality& { return timeline.frames[i].yardstick; };
+}
+
+std::vector<double> missing_px(const ModeTimeline& mode) {
+  std::vector<double> values;
+  for (const FrameRecord& frame : mode.frames)
+    values.push_back(static_cast<double>(frame.quality.missing_px));
+  return values;
+}
+
+Json mode_to_json(const Timeline& timeline, const ModeTimeline& mode) {
+  const std::size_t n = mode.frames.size();
+  const Summary ms = summarize(values_of(mode, &FrameRecord::ms));
+  Json json = {{"triangles_mean", mean_of(values_of(mode, &FrameRecord::n_triangles))},
+               {"frame_ms",
+                {{"mean", ms.mean},
+                 {"median", ms.median},
+                 {"p95", ms.p95},
+                 {"p99", ms.p99},
+                 {"max", ms.max},
+                 {"min", ms.min}}},
+               {"psnr_db", to_json(summarize_db(n, quality_of(mode), false))},
+               {"psnr_covered_db", to_json(summarize_db(n, quality_of(mode), true))},
+               {"texture_bytes_mean", mean_of(values_of(mode, &FrameRecord::texture_bytes))},
+               {"draws_mean", mean_of(values_of(mode, &FrameRecord::n_draws))},
+               {"missing_px_mean", mean_of(missing_px(mode))}};
+  if (mode.mode == "raycast")
+    json["rays_per_s"] = timeline.width_px * timeline.height_px / (1e-3 * ms.mean);
+  return json;
+}
+
+Json frame_to_json(const Timeline& timeline, std::size_t i) {
+  const FrameInfo& info = timeline.frames[i];
+  Json json = {{"frame", i},
+               {"time_s", info.time_s},
+               {"cell", info.cell},
+               {"coverage", info.coverage},
+               {"yardstick_psnr_db", number_or_null(info.yardstick.psnr_db)},
+               {"yardstick_psnr_covered_db", number_or_null(info.yardstick.psnr_covered_db)},
+               {"modes", Json::object()}};
+  for (const ModeTimeline& mode : timeline.modes) {
+    const FrameRecord& frame = mode.frames[i];
+    json["modes"][mode.mode] = {{"ms", frame.ms},
+                                {"triangles", frame.n_triangles},
+                                {"draws", frame.n_draws},
+                                {"texture_bytes", frame.texture_bytes},
+                                {"psnr_db", number_or_null(frame.quality.psnr_db)},
+                                {"psnr_covered_db", number_or_null(frame.quality.psnr_covered_db)},
+                                {"missing_px", frame.quality.missing_px}};
+  }
+  return json;
+}
+
+Json speedups(const Timeline& timeline) {
+  const auto mean_ms = [](const ModeTimeline& mode) {
+    return mean_of(values_of(mode, &FrameRecord::ms));
+  };
+  Json json = Json::object();
+  for (const ModeTimeline& fast : timeline.modes)
+    for (const ModeTimeline& slow : timeline.modes)
+      if (fast.mode == "hybrid" && slow.mode != "hybrid")
+        json[fast.mode + "_over_" + slow.mode] = mean_ms(slow) / mean_ms(fast);
+  return json;
+}
+
+double coverage_mean(const Timeline& timeline) {
+  double sum = 0;
+  for (const FrameInfo& frame : timeline.frames) sum += frame.coverage;
+  return sum / static_cast<double>(timeline.frames.size());
+}
+
+void check_timeline(const Timeline& timeline) {
+  VIEWCELL_CHECK(!timeline.frames.empty());
+  for (const ModeTimeline& mode : timeline.modes)
+    VIEWCELL_CHECK(mode.frames.size() == timeline.frames.size(), mode.mode, mode.frames.size(),
+                   timeline.frames.size());
+}
+
+std::string format_row(const Timeline& timeline, const ModeTimeline& mode) {
+  const std::size_t n = mode.frames.size();
+  const Summary ms = summarize(values_of(mode, &FrameRecord::ms));
+  const double triangles = mean_of(values_of(mode, &FrameRecord::n_triangles));
+  const double draws = mean_of(values_of(mode, &FrameRecord::n_draws));
+  char line[200];
+  std::snprintf(line, sizeof line, "%-9s %9.2f %9.2f %9.2f %11.0f %7.0f", mode.mode.c_str(),
+                ms.mean, ms.median, ms.p95, triangles, draws);
+  std::string row = line;
+  if (mode.mode == timeline.reference) return row + "   (reference)\n";
+  const auto excess = [&](bool covered) {
+    const double db = summarize_db(n, quality_of(mode), covered).summary.mean;
+    return std::pair(db, db - summarize_db(n, yardstick_of(timeline), covered).summary.mean);
+  };
+  const auto [db, over] = excess(false);
+  const auto [covered_db, covered_over] = excess(true);
+  std::snprintf(line, sizeof line, " %7.2f %+6.1f %8.2f %+6.1f\n", db, over, covered_db,
+                covered_over);
+  return row + line;
+}
+
+}  // namespace
+
+Summary summarize(std::span<const double> values) {
+  if (values.empty())
+    return {kNotMeasured, kNotMeasured, kNotMeasured, kNotMeasured,
+            kNotMeasured, kNotMeasured, kNotMeasured};
+  std::vector<double> sorted(values.begin(), values.end());
+  std::sort(sorted.begin(), sorted.end());
+  return {mean_of(values),         percentile(sorted, 0.5),  sorted.front(),
+          sorted.back(),           percentile(sorted, 0.05), percentile(sorted, 0.95),
+          percentile(sorted, 0.99)};
+}
+
+Json make_statistics(const Timeline& timeline) {
+  check_timeline(timeline);
+  const std::size_t n = timeline.frames.size();
+  Json modes = Json::object(), per_frame = Json::array();
+  for (const ModeTimeline& mode : timeline.modes) modes[mode.mode] = mode_to_json(timeline, mode);
+  for (std::size_t i = 0; i < n; ++i) per_frame.push_back(frame_to_json(timeline, i));
+  return {{"frames", n},
+          {"width_px", timeline.width_px},
+          {"height_px", timeline.height_px},
+          {"renderer", timeline.renderer},
+          {"gl_threads", timeline.gl_threads},
+          {"threads", timeline.n_threads},
+          {"reference", timeline.reference},
+          {"modes", modes},
+          {"yardstick",
+           {{"psnr_db", to_json(summarize_db(n, yardstick_of(timeline), false))},
+            {"psnr_covered_db", to_json(summarize_db(n, yardstick_of(timeline), true))}}},
+          {"coverage_mean", coverage_mean(timeline)},
+          {"speedup", speedups(timeline)},
+          {"per_frame", per_frame}};
+}
+
+std::string format_mode_table(const Timeline& timeline) {
+  check_timeline(timeline);
+  char line[200];
+  std::snprintf(line, sizeof line, "%-9s %9s %9s %9s %11s %7s %7s %6s %8s %6s\n", "mode", "mean ms",
+                "median", "p95", "triangles", "draws", "dB", "over*", "covered", "over*");
+  std::string table = line;
+  for (const ModeTimeline& mode : timeline.modes) table += format_row(timeline, mode);
+  return table + "* the reference shifted by half a pixel\n";
+}
+
+}  // namespace viewcell

@@ -1,0 +1,279 @@
+#include "play/statistics.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "base/error.h"
+#include "base/random.h"
+#include "play/contact_sheet.h"
+#include "play/label.h"
+#include "play/plots.h"
+
+namespace viewcell {
+namespace {
+
+TEST(Summary, ByHand) {
+  const std::vector<double> values{4, 1, 3, 2, 5};
+  const Summary s = summarize(values);
+  EXPECT_DOUBLE_EQ(s.mean, 3);
+  EXPECT_DOUBLE_EQ(s.median, 3);
+  EXPECT_DOUBLE_EQ(s.min, 1);
+  EXPECT_DOUBLE_EQ(s.max, 5);
+  EXPECT_DOUBLE_EQ(s.p5, 1.2);  // 0.2 of the way from the first to the second
+  EXPECT_DOUBLE_EQ(s.p95, 4.8);
+  EXPECT_DOUBLE_EQ(s.p99, 4.96);
+}
+
+TEST(Summary, OneValueIsEveryNumber) {
+  const std::vector<double> one{7};
+  const Summary s = summarize(one);
+  for (const double x : {s.mean, s.median, s.min, s.max, s.p5, s.p95, s.p99}) EXPECT_EQ(x, 7);
+}
+
+TEST(Summary, NoValuesAreNaN) {
+  EXPECT_TRUE(std::isnan(summarize({}).mean));
+}
+
+TEST(Summary, IsOrderedAndIgnoresOrder) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    SCOPED_TRACE(testing::Message() << "seed " << seed);
+    Random random(seed);
+    std::vector<double> values(1 + random.below(200));
+    for (double& x : values) x = random.uniform(-5, 50);
+    const Summary s = summarize(values);
+    EXPECT_LE(s.min, s.p5);
+    EXPECT_LE(s.p5, s.median);
+    EXPECT_LE(s.median, s.p95);
+    EXPECT_LE(s.p95, s.p99);
+    EXPECT_LE(s.p99, s.max);
+    std::sort(values.begin(), values.end());
+    EXPECT_EQ(summarize(values).p95, s.p95);
+  }
+}
+
+PictureQuality quality(double db, double covered_db, std::size_t n_covered, std::size_t missing) {
+  const auto mse = [](double x) { return x >= 100 ? 0 : 255 * 255 * std::pow(10, -x / 10); };
+  return {db, covered_db, mse(db), mse(covered_db), n_covered, missing};
+}
+
+// Three frames: the second without objects, the third identical in hybrid.
+Timeline make_timeline() {
+  Timeline t;
+  t.width_px = 100, t.height_px = 50;
+  t.renderer = "llvmpipe \"x\"";
+  t.gl_threads = 2, t.n_threads = 2;
+  t.reference = "frustum";
+  t.frames = {{0, 3, 0.25, quality(30, 20, 1000, 5)},
+              {0.5, 3, 0, quality(100, 100, 0, 0)},
+              {1, 4, 0.5, quality(40, 30, 3000, 5)}};
+  t.modes = {{"frustum",
+              {{10, 1000, 7, 0, quality(100, 100, 1000, 0)},
+               {20, 2000, 8, 0, quality(100, 100, 0, 0)},
+               {30, 3000, 9, 0, quality(100, 100, 3000, 0)}}},
+             {"hybrid",
+              {{1, 100, 3, 50, quality(40, 30, 1000, 9)},
+               {2, 200, 4, 60, quality(100, 100, 0, 0)},
+               {3, 300, 5, 70, quality(100, 100, 3000, 0)}}},
+             {"raycast", {{4, 0, 0, 0, {}}, {5, 0, 0, 0, {}}, {6, 0, 0, 0, {}}}}};
+  return t;
+}
+
+TEST(Statistics, FollowTheContract) {
+  const Json json = make_statistics(make_timeline());
+  EXPECT_EQ(json["frames"], 3);
+  EXPECT_EQ(json["width_px"], 100);
+  EXPECT_EQ(json["height_px"], 50);
+  EXPECT_EQ(json["renderer"], "llvmpipe \"x\"");
+  EXPECT_EQ(json["gl_threads"], 2);
+  EXPECT_DOUBLE_EQ(json["coverage_mean"], 0.25);
+  const Json& hybrid = json["modes"]["hybrid"];
+  EXPECT_DOUBLE_EQ(hybrid["triangles_mean"], 200);
+  EXPECT_DOUBLE_EQ(hybrid["draws_mean"], 4);
+  EXPECT_DOUBLE_EQ(hybrid["texture_bytes_mean"], 60);
+  EXPECT_DOUBLE_EQ(hybrid["missing_px_mean"], 3);
+  EXPECT_DOUBLE_EQ(hybrid["frame_ms"]["mean"], 2);
+  EXPECT_DOUBLE_EQ(hybrid["frame_ms"]["max"], 3);
+  EXPECT_DOUBLE_EQ(hybrid["psnr_db"]["mean"], 80);
+  EXPECT_DOUBLE_EQ(hybrid["psnr_db"]["min"], 40);
+  // The empty frame says nothing of covered pixels.
+  EXPECT_DOUBLE_EQ(hybrid["psnr_covered_db"]["mean"], 65);
+  EXPECT_DOUBLE_EQ(json["yardstick"]["psnr_covered_db"]["mean"], 25);
+  EXPECT_DOUBLE_EQ(json["speedup"]["hybrid_over_frustum"], 10);
+  EXPECT_DOUBLE_EQ(json["speedup"]["hybrid_over_raycast"], 2.5);
+  EXPECT_FALSE(json["speedup"].contains("hybrid_over_hybrid"));
+  EXPECT_EQ(json["per_frame"].size(), 3u);
+  EXPECT_EQ(json["per_frame"][2]["cell"], 4);
+  EXPECT_EQ(json["per_frame"][2]["modes"]["hybrid"]["triangles"], 300);
+}
+
+TEST(Statistics, DbOfTheMeanErrorWeighsPixels) {
+  const Json json = make_statistics(make_timeline());
+  // Frame: 40 dB in one of three, else nothing. Covered: 30 dB over 1000 of 4000 pixels.
+  EXPECT_NEAR(json["modes"]["hybrid"]["psnr_db"]["of_mse"], 40 + 10 * std::log10(3), 1e-9);
+  EXPECT_NEAR(json["modes"]["hybrid"]["psnr_covered_db"]["of_mse"], 30 + 10 * std::log10(4), 1e-9);
+}
+
+TEST(Statistics, WhatWasNotMeasuredIsNull) {
+  const Json json = make_statistics(make_timeline());
+  EXPECT_TRUE(json["modes"]["raycast"]["psnr_db"]["mean"].is_null());
+  EXPECT_TRUE(json["per_frame"][0]["modes"]["raycast"]["psnr_db"].is_null());
+  EXPECT_DOUBLE_EQ(json["modes"]["raycast"]["rays_per_s"], 1e6);  // 5000 in 5 ms
+}
+
+TEST(Statistics, ModesMustHaveEveryFrame) {
+  Timeline timeline = make_timeline();
+  timeline.modes[1].frames.pop_back();
+  EXPECT_THROW(make_statistics(timeline), BugError);
+}
+
+TEST(Statistics, TableHasALineAMode) {
+  const std::string table = format_mode_table(make_timeline());
+  EXPECT_NE(table.find("hybrid"), std::string::npos);
+  EXPECT_NE(table.find("(reference)"), std::string::npos);
+  EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 5);
+}
+
+TEST(Quality, CountsMissingAndCoveredPixels) {
+  ImageRgba8 reference(4, 1, {9, 9, 9, 0}), tested = reference;
+  reference.at(0, 0) = {50, 50, 50, 255};
+  reference.at(1, 0) = {50, 50, 50, 255};
+  tested.at(1, 0) = {50, 50, 50, 254};
+  tested.at(2, 0) = {80, 80, 80, 255};
+  const PictureQuality q = measure_quality(reference, tested);
+  EXPECT_EQ(q.missing_px, 1u);
+  EXPECT_EQ(q.n_covered_px, 3u);
+  EXPECT_NEAR(q.mse, (41.0 * 41 + 71.0 * 71) / 4, 1e-9);
+  EXPECT_NEAR(q.mse_covered, (41.0 * 41 + 71.0 * 71) / 3, 1e-9);
+  EXPECT_DOUBLE_EQ(measure_coverage(reference), 0.5);
+}
+
+LinePlot make_plot() {
+  LinePlot plot;
+  plot.title = "a < b & c";
+  plot.x = {0, 1, 2, 3};
+  plot.lines = {{"one", "#123456", false, {1, 10, 100, 1000}},
+                {"two", "#654321", true, {5, kNotMeasured, 5, 5}}};
+  plot.marks = {1.5};
+  plot.mark_label = "mark";
+  return plot;
+}
+
+std::size_t count(const std::string& text, const std::string& what) {
+  std::size_t n = 0;
+  for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + 1)) ++n;
+  return n;
+}
+
+TEST(Plots, LinesLegendAndMarksAreThere) {
+  const std::string svg = format_svg(make_plot());
+  EXPECT_EQ(count(svg, "<path "), 2u);
+  EXPECT_EQ(count(svg, "stroke=\"#123456\""), 2u);  // line and legend
+  EXPECT_NE(svg.find("a &lt; b &amp; c"), std::string::npos);
+  EXPECT_EQ(count(svg, "#b8c4d6"), 2u);
+  EXPECT_EQ(svg.find("nan"), std::string::npos);
+  EXPECT_EQ(svg.rfind("</svg>\n"), svg.size() - 7);
+}
+
+// On a log axis equal factors are equal steps: 1, 10, 100, 1000 lie on a straight line.
+TEST(Plots, LogAxisIsLogarithmic) {
+  LinePlot plot = make_plot();
+  plot.log_y = true;
+  plot.lines.pop_back();
+  const std::string svg = format_svg(plot);
+  const std::size_t at = svg.find("<path d=\"M") + 10;
+  double x[4], y[4];
+  ASSERT_EQ(std::sscanf(svg.c_str() + at, "%lf %lf L%lf %lf L%lf %lf L%lf %lf", &x[0], &y[0], &x[1],
+                        &y[1], &x[2], &y[2], &x[3], &y[3]),
+            8);
+  for (int i = 0; i + 2 < 4; ++i) EXPECT_NEAR(y[i] - y[i + 1], y[i + 1] - y[i + 2], 0.21);
+  EXPECT_GT(y[0], y[3] + 100);  // upward
+}
+
+TEST(Plots, NaNBreaksALine) {
+  const std::string svg = format_svg(make_plot());
+  const std::size_t at = svg.rfind("<path d=\"");
+  EXPECT_EQ(count(svg.substr(at, svg.find("/>", at) - at), "M"), 2u);
+}
+
+TEST(Plots, DegenerateDataStillMakesAPlot) {
+  LinePlot plot = make_plot();
+  plot.x = {2};
+  plot.lines = {{"flat", "#000000", false, {3}}, {"none", "#111111", false, {kNotMeasured}}};
+  EXPECT_EQ(format_svg(plot).find("nan"), std::string::npos);
+  plot.lines.clear();
+  EXPECT_EQ(format_svg(plot).find("nan"), std::string::npos);
+  plot.log_y = true;
+  plot.lines = {{"zero", "#000000", false, {0}}};
+  EXPECT_EQ(format_svg(plot).find("inf"), std::string::npos);
+}
+
+TEST(Plots, ValuesOverTheMostDoNotStretchTheAxis) {
+  LinePlot plot = make_plot();
+  plot.lines = {{"db", "#000000", false, {30, 40, 100, 35}}};
+  plot.y_most = 50;
+  const std::string svg = format_svg(plot);
+  EXPECT_EQ(svg.find(">100<"), std::string::npos);
+  EXPECT_NE(svg.find(">50<"), std::string::npos);
+}
+
+// 'I' is a bar with feet: columns 1 and 3 have dots at top and bottom only.
+TEST(Label, DrawsDotsAndCutsAtTheEdge) {
+  ImageRgba8 image(12, 8, {0, 0, 0, 255});
+  const Rgba8 white{255, 255, 255, 255};
+  draw_label(image, 0, 0, "I", white);
+  for (int y = 0; y < 7; ++y) EXPECT_EQ(image.at(2, y), white) << y;
+  EXPECT_EQ(image.at(1, 0), white);
+  EXPECT_EQ(image.at(1, 6), white);
+  EXPECT_NE(image.at(1, 3), white);
+  EXPECT_NE(image.at(0, 0), white);
+  EXPECT_NO_THROW(draw_label(image, -3, -3, "clipped \xff\n", white, 3));
+  EXPECT_EQ(label_width("abc", 2), 36);
+}
+
+TEST(ContactSheet, ShrinkingKeepsTheMean) {
+  ImageRgba8 image(10, 6);
+  Random random(3);
+  double sum = 0;
+  for (Rgba8& p : image.pixels) sum += p[0] = static_cast<std::uint8_t>(random.below(256));
+  const ImageRgba8 half = shrink_to_width(image, 5);
+  ASSERT_EQ(half.width_px, 5);
+  ASSERT_EQ(half.height_px, 3);
+  EXPECT_EQ(
+      half.at(1, 2)[0],
+      (image.at(2, 4)[0] + image.at(3, 4)[0] + image.at(2, 5)[0] + image.at(3, 5)[0] + 2) / 4);
+  double shrunk = 0;
+  const ImageRgba8 odd = shrink_to_width(image, 7);
+  for (const Rgba8& p : odd.pixels) shrunk += p[0];
+  EXPECT_NEAR(shrunk / odd.pixels.size(), sum / image.pixels.size(), 1);
+  EXPECT_EQ(shrink_to_width(image, 99).pixels, image.pixels);
+}
+
+TEST(ContactSheet, PutsPicturesInTheirColumns) {
+  const Rgba8 red{200, 0, 0, 0}, blue{0, 0, 200, 255};
+  const std::vector<SheetRow> rows{
+      {"first", {ImageRgba8(20, 10, red), ImageRgba8(20, 10, blue)}, {"1 dB"}},
+      {"second", {{}, ImageRgba8(20, 10, blue)}, {}}};
+  const ImageRgba8 sheet = make_contact_sheet({"a", "b"}, rows, {20});
+  EXPECT_EQ(sheet.width_px, 8 + 2 * 28);
+  std::size_t n_red = 0, n_blue = 0;
+  for (int y = 0; y < sheet.height_px; ++y)
+    for (int x = 0; x < sheet.width_px; ++x) {
+      const Rgba8& p = sheet.at(x, y);
+      EXPECT_EQ(p[3], 255);
+      const bool is_red = p[0] == 200 && p[1] == 0, is_blue = p[2] == 200 && p[1] == 0;
+      n_red += is_red, n_blue += is_blue;
+      EXPECT_FALSE(is_red && x >= 28);
+      EXPECT_FALSE(is_blue && x < 36);
+    }
+  EXPECT_EQ(n_red, 200u);
+  EXPECT_EQ(n_blue, 400u);
+}
+
+TEST(ContactSheet, PicturesOfTwoSizesAreABug) {
+  const std::vector<SheetRow> rows{{"row", {ImageRgba8(20, 10), ImageRgba8(20, 11)}, {}}};
+  EXPECT_THROW(make_contact_sheet({"a", "b"}, rows), BugError);
+}
+
+}  // namespace
+}  // namespace viewcell
