@@ -12,6 +12,12 @@ glm::dmat4 SceneObject::matrix_world_from_model() const {
   return matrix;
 }
 
+glm::vec3 turn_up_axis(const std::string& up, const glm::vec3& p) {
+  if (up == "y") return {p.x, -p.z, p.y};
+  if (up == "x") return {p.y, p.z, p.x};
+  return p;
+}
+
 std::size_t count_triangles(const Scene& scene) {
   std::size_t n = 0;
   for (const SceneObject& object : scene.objects) n += scene.mesh_of(object).n_triangles;

@@ -75,6 +75,10 @@ struct ReadSceneOptions {
   int n_threads = 0;
 };
 
+/// A point or direction of a space whose axis `up` ("x", "y" or "z") points up, turned so that z
+/// does.
+glm::vec3 turn_up_axis(const std::string& up, const glm::vec3& p);
+
 /// Reads scene.json and the meshes that it names. Every path must stay inside its folder; a mesh
 /// file must be the one that the scene was written with ("hash", "triangles"; a scene written by
 /// hand may leave both out, and its meshes are then read even without with_meshes).

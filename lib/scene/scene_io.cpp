@@ -156,13 +156,9 @@ SceneObject read_object(const JsonCursor& cursor, const Scene& scene) {
 
 // Turns the file's up axis to z and applies its scale.
 void apply_up_and_scale(SceneMesh& mesh) {
-  const auto turn = [&](const glm::vec3& p) -> glm::vec3 {
-    if (mesh.up == "y") return {p.x, -p.z, p.y};
-    if (mesh.up == "x") return {p.y, p.z, p.x};
-    return p;
-  };
-  for (glm::vec3& p : mesh.mesh.positions) p = turn(p) * static_cast<float>(mesh.scale);
-  for (glm::vec3& n : mesh.mesh.normals) n = turn(n);
+  for (glm::vec3& p : mesh.mesh.positions)
+    p = turn_up_axis(mesh.up, p) * static_cast<float>(mesh.scale);
+  for (glm::vec3& n : mesh.mesh.normals) n = turn_up_axis(mesh.up, n);
 }
 
 // Reads and checks one mesh file; place: "meshes[3]".
