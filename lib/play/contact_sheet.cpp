@@ -77,14 +77,14 @@ ImageRgba8 make_contact_sheet(const std::vector<std::string>& columns,
   const int n_columns = static_cast<int>(columns.size()), n_rows = static_cast<int>(rows.size());
   // A row: its label, the pictures, the notes.
   const int row_height = kLine + tile.height_px + kLine + kGap;
-  ImageRgba8 sheet(kGap + n_columns * (tile.width_px + kGap), kGap + kLine + n_rows * row_height,
-                   kPaper);
+  ImageRgba8 sheet(kGap + n_columns * (tile.width_px + kGap),
+                   2 * kGap + kLine + n_rows * row_height, kPaper);
   const auto column_x = [&](std::size_t i) {
     return kGap + static_cast<int>(i) * (tile.width_px + kGap);
   };
   for (std::size_t i = 0; i < columns.size(); ++i)
     draw_label(sheet, column_x(i), kGap, columns[i], kInk, kTextScale);
-  int y = kGap + kLine;
+  int y = 2 * kGap + kLine;
   for (const SheetRow& row : rows) {
     VIEWCELL_CHECK(row.pictures.size() <= columns.size(), row.pictures.size(), columns.size());
     draw_label(sheet, kGap, y, row.label, kInk, kTextScale);

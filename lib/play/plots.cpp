@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kWidth = 960, kHeight = 420;
 constexpr double kLeft = 76, kRight = 812, kTop = 46, kBottom = 362;  // of the axes
-constexpr double kIdenticalDbShown = 70;  // above it, pictures differ by less than rounding does
+constexpr double kMostDbShown = 60;  // above it, nobody sees a difference
 
 // Okabe and Ito 2008: told apart by readers who confuse red and green.
 std::string color_of(const std::string& mode) {
@@ -77,7 +77,7 @@ std::vector<double> linear_ticks(const Axis& axis, int n_most) {
   std::vector<double> ticks;
   const double slack = 1e-9 * (axis.hi - axis.lo);
   for (double k = std::ceil((axis.lo - slack) / step); k * step <= axis.hi + slack; ++k)
-    ticks.push_back(k * step);
+    ticks.push_back(k * step + 0.0);  // -0 to 0
   return ticks;
 }
 
@@ -214,7 +214,7 @@ void add_modes(const Timeline& timeline, bool with_reference, Value value, LineP
 LinePlot make_quality_plot(const Timeline& timeline, const std::string& title,
                            double PictureQuality::*field) {
   LinePlot plot = make_plot(timeline, title, "PSNR (dB)");
-  plot.y_most = kIdenticalDbShown;
+  plot.y_most = kMostDbShown;
   const auto value = [&](const PictureQuality& q) {
     return q.n_covered_px == 0 ? kNotMeasured : q.*field;  // an empty frame says nothing
   };

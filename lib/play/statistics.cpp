@@ -143,6 +143,11 @@ double coverage_mean(const Timeline& timeline) {
   return sum / static_cast<double>(timeline.frames.size());
 }
 
+Json floor_to_json(const Timeline& timeline) {
+  const Summary ms = summarize(timeline.floor_ms);
+  return {{"mean", number_or_null(ms.mean)}, {"median", number_or_null(ms.median)}};
+}
+
 void check_timeline(const Timeline& timeline) {
   VIEWCELL_CHECK(!timeline.frames.empty());
   for (const ModeTimeline& mode : timeline.modes)
@@ -203,6 +208,7 @@ Json make_statistics(const Timeline& timeline) {
             {"psnr_covered_db", to_json(summarize_db(n, yardstick_of(timeline), true))}}},
           {"coverage_mean", coverage_mean(timeline)},
           {"speedup", speedups(timeline)},
+          {"floor_ms", floor_to_json(timeline)},
           {"per_frame", per_frame}};
 }
 
@@ -213,6 +219,12 @@ std::string format_mode_table(const Timeline& timeline) {
                 "median", "p95", "triangles", "draws", "dB", "over*", "covered", "over*");
   std::string table = line;
   for (const ModeTimeline& mode : timeline.modes) table += format_row(timeline, mode);
+  if (!timeline.floor_ms.empty()) {
+    const Summary ms = summarize(timeline.floor_ms);
+    std::snprintf(line, sizeof line, "%-9s %9.2f %9.2f %9.2f   (clear and one textured quad)\n",
+                  "floor", ms.mean, ms.median, ms.p95);
+    table += line;
+  }
   return table + "* the reference shifted by half a pixel\n";
 }
 

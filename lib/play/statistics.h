@@ -19,7 +19,7 @@ Summary summarize(std::span<const double> values);
 /// The contract of `play --stats` (docs/formats.md). PSNR keys carry beside mean, min and p5 the dB
 /// of the mean squared error, "of_mse"; frames in which nothing is covered do not count for covered
 /// dB. speedup: X_over_Y is the mean time of Y over that of X, for X = hybrid and every other mode,
-/// where hybrid was played.
+/// where hybrid was played. floor_ms: of FloorQuad.
 Json make_statistics(const Timeline& timeline);
 
 /// The table of modes for people: one line a mode, times, triangles, dB over the yardstick.

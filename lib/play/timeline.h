@@ -53,6 +53,7 @@ struct Timeline {
   std::string reference;  ///< the mode that the others are compared with
   std::vector<FrameInfo> frames;
   std::vector<ModeTimeline> modes;
+  std::vector<double> floor_ms;  ///< of FloorQuad, interleaved with the frames; may be empty
 };
 
 /// Share of pixels that show an object.

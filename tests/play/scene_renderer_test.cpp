@@ -4,6 +4,7 @@
 
 #include "base/srgb.h"
 #include "gl_fixture.h"
+#include "play/floor.h"
 #include "play/raycast.h"
 #include "play/shading.h"
 #include "small_scene.h"
@@ -240,6 +241,17 @@ TEST(SceneRenderer, ShiftByWholePixelsMovesThePicture) {
     for (int x = 0; x + 3 < kSize; ++x)
       n_different += most_difference(still.at(x, y), moved.at(x + 3, y - 2)) > 2;
   EXPECT_LE(n_different, 20u);
+}
+
+TEST(FloorQuad, CoversEveryPixelWithItsPattern) {
+  const Gl& gl = shared_context().gl();
+  const GlFramebuffer target(gl, 64, 64);
+  FloorQuad(gl, 64, 64).draw(target);
+  const ImageRgba8 image = target.read_rgba8();
+  std::size_t n_black = 0;
+  for (const Rgba8& p : image.pixels) n_black += p == Rgba8{0, 0, 0, 0};
+  EXPECT_EQ(n_black, 0u);
+  EXPECT_NE(image.at(3, 3), image.at(30, 40));
 }
 
 TEST(SceneRenderer, StyleReplacesMaterialColours) {

@@ -132,6 +132,10 @@ TEST(Statistics, TableHasALineAMode) {
   EXPECT_NE(table.find("hybrid"), std::string::npos);
   EXPECT_NE(table.find("(reference)"), std::string::npos);
   EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 5);
+  Timeline timeline = make_timeline();
+  timeline.floor_ms = {1, 2, 6};
+  EXPECT_NE(format_mode_table(timeline).find("floor          3.00      2.00"), std::string::npos);
+  EXPECT_DOUBLE_EQ(make_statistics(timeline)["floor_ms"]["median"], 2);
 }
 
 TEST(Quality, CountsMissingAndCoveredPixels) {
