@@ -8,12 +8,13 @@
 namespace viewcell {
 
 /// One directional light and an ambient that goes from ground to sky with the normal's z.
-/// All colours are linear; nothing casts shadows.
+/// All colours are linear; nothing casts shadows. The default is a low, warm sun under a clear sky:
+/// lit and unlit sides differ enough for errors of a picture to show.
 struct Lighting {
-  glm::vec3 toward_light{0.48f, -0.60f, 0.64f};  ///< unit, from the surface to the light
-  glm::vec3 light{1.05f, 1.0f, 0.92f};
-  glm::vec3 ambient_sky{0.20f, 0.24f, 0.30f};
-  glm::vec3 ambient_ground{0.09f, 0.08f, 0.06f};
+  glm::vec3 toward_light{0.60f, -0.64f, 0.48f};  ///< unit, from the surface to the light
+  glm::vec3 light{1.12f, 0.98f, 0.76f};
+  glm::vec3 ambient_sky{0.17f, 0.21f, 0.29f};
+  glm::vec3 ambient_ground{0.07f, 0.06f, 0.05f};
   glm::vec3 sky_color{0.30f, 0.42f, 0.62f};     ///< behind everything
   glm::vec3 ground_color{0.12f, 0.14f, 0.09f};  ///< of the ground plane, as displayed (unlit)
 };

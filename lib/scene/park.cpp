@@ -11,14 +11,14 @@ namespace {
 // A material a kind, in the order of statue_kinds(): light and dark, warm and cool stand beside
 // each other.
 std::vector<Material> make_materials() {
-  return {{"jade", {0.20f, 0.46f, 0.30f}, "", false},
-          {"white marble", {0.80f, 0.78f, 0.74f}, "", false},
-          {"red sandstone", {0.58f, 0.27f, 0.16f}, "", false},
-          {"bronze", {0.26f, 0.15f, 0.07f}, "", false},
-          {"grey granite", {0.42f, 0.42f, 0.45f}, "", false},
-          {"basalt", {0.13f, 0.13f, 0.15f}, "", false},
-          {"yellow sandstone", {0.70f, 0.52f, 0.26f}, "", false},
-          {"Carrara marble", {0.84f, 0.84f, 0.86f}, "", false}};
+  return {{"jade", {0.15f, 0.38f, 0.25f}, "", false},
+          {"white marble", {0.70f, 0.68f, 0.64f}, "", false},
+          {"red sandstone", {0.52f, 0.25f, 0.15f}, "", false},
+          {"bronze", {0.24f, 0.14f, 0.07f}, "", false},
+          {"grey granite", {0.36f, 0.37f, 0.41f}, "", false},
+          {"basalt", {0.14f, 0.14f, 0.16f}, "", false},
+          {"yellow sandstone", {0.62f, 0.46f, 0.23f}, "", false},
+          {"Carrara marble", {0.72f, 0.73f, 0.77f}, "", false}};
 }
 
 }  // namespace
