@@ -11,7 +11,7 @@ namespace {
 struct Options {
   std::string preset = "demo";
   std::string models_folder;
-  std::uint64_t seed = 6;
+  std::uint64_t seed = 3;
   bool list = false;
 };
 
