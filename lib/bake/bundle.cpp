@@ -33,8 +33,8 @@ void check_geometry(const CellGeometry& g, const Scene& scene, const SectionRead
     n_vertices += o.n_vertices;
     n_triangles += o.n_triangles;
   }
-  if (g.source_vertices.size() != n_vertices || g.indices.size() != 3 * n_triangles ||
-      g.views.size() != n_triangles)
+  if (g.source_vertices.size() != n_vertices || g.offsets.size() != n_vertices ||
+      g.indices.size() != 3 * n_triangles || g.views.size() != n_triangles)
     reader.fail("OBJECTS", "its counts are not those of the other sections");
   std::size_t v = 0, i = 0;
   for (const BundleObject& o : g.objects) {
@@ -136,6 +136,7 @@ CellGeometry Bundle::read_cell(CellId cell) const {
   CellGeometry g;
   g.objects = reader.read<BundleObject>("OBJECTS");
   g.source_vertices = reader.read<std::uint32_t>("VERTICES");
+  g.offsets = reader.read<std::int16_t>("OFFSETS");
   g.indices = reader.read<std::uint32_t>("INDICES");
   g.views = reader.read<std::uint8_t>("VIEWS");
   check_geometry(g, scene_, reader);
@@ -155,6 +156,7 @@ void write_cell_geometry(const fs::path& file, const CellGeometry& g) {
   SectionWriter writer(kCellKind);
   writer.add("OBJECTS", g.objects);
   writer.add("VERTICES", g.source_vertices);
+  writer.add("OFFSETS", g.offsets);
   writer.add("INDICES", g.indices);
   writer.add("VIEWS", g.views);
   writer.write(file);

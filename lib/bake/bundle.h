@@ -22,8 +22,10 @@ struct BundleObject {
 struct CellGeometry {
   std::vector<BundleObject> objects;
   std::vector<std::uint32_t> source_vertices;  ///< numbers in each object's original mesh
-  std::vector<std::uint32_t> indices;          ///< 3 a triangle
-  std::vector<std::uint8_t> views;             ///< 1 a triangle
+  /// How far each vertex lies off its original along the normal, in 1/1024 of the scene's unit.
+  std::vector<std::int16_t> offsets;
+  std::vector<std::uint32_t> indices;  ///< 3 a triangle
+  std::vector<std::uint8_t> views;     ///< 1 a triangle
 };
 
 /// One object's crop as seen from a centre.
@@ -54,6 +56,8 @@ struct BundleManifest {
   std::vector<CentreId> centres;
   Json made_by;
 };
+
+inline constexpr double kOffsetUnit = 1.0 / 1024;
 
 /// Opens a bundle; everything else is read from it on demand. Reading is const and thread-safe.
 class Bundle {

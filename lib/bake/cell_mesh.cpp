@@ -69,19 +69,27 @@ std::vector<bool> find_back_faces(const BakeScene& bake, CellId cell, const Scen
   return find_regional_back_faces(world, triangles, prism_of(bake.cells, cell));
 }
 
+// Points spread evenly over the cell's hexagon, at the eye's middle height.
+std::vector<glm::dvec3> sample_cell(const CellSet& cells, CellId cell) {
+  const glm::dvec3 centre = ball_of(cells, cell).centre;
+  std::vector<glm::dvec3> samples{centre};
+  for (const double share : {0.45, 0.85})
+    for (const glm::dvec2& corner : corners_of(cells.grid, place_of(cells.grid, cell)))
+      samples.emplace_back(glm::mix(glm::dvec2(centre), corner, share), centre.z);
+  return samples;
+}
+
 ViewMetricOptions make_metric_options(const BakeScene& bake, CellId cell, Representation kind,
                                       const BakeOptions& options) {
   const Ball ball = ball_of(bake.cells, cell);
   ViewMetricOptions metric;
-  metric.eyes = {ball.centre};
-  if (kind == Representation::multi_view)  // l': the length as any point of the cell may see it
-    for (const glm::dvec2& corner : corners_of(bake.cells.grid, place_of(bake.cells.grid, cell)))
-      metric.eyes.emplace_back(corner, ball.centre.z);
+  metric.centre = ball.centre;
+  metric.radius = ball.radius;
+  metric.samples = sample_cell(bake.cells, cell);
   metric.focal_px = focal_of(options.resolution_px);
   metric.keep_common_views = kind == Representation::multi_view;
+  metric.tl_px = options.tl_px;
   metric.max_drift_px = options.max_drift_px;
-  metric.region_centre = ball.centre;
-  metric.region_radius = ball.radius;
   return metric;
 }
 
@@ -142,7 +150,8 @@ Representation choose_representation(const BakeScene& bake, CellId cell, ObjectI
   const ViewVertices placed = place_vertices(level.mesh, object);
   const Ball ball = ball_of(bake.cells, cell);
   const std::vector<glm::dvec3> points(placed.positions.begin(), placed.positions.end());
-  if (!choose_view(ball.centre, points, options.resolution_px)) return Representation::multi_view;
+  if (!choose_view(ball.centre, points, {.resolution_px = options.resolution_px}))
+    return Representation::multi_view;
   const auto back = find_back_faces(bake, cell, object, placed.positions, level.mesh.triangles);
   const ObjectDepth depth =
       measure_depth(ball.centre, placed.positions, level.mesh.triangles, back);
@@ -169,6 +178,8 @@ CellMesh derive_mesh(const BakeScene& bake, CellId cell, ObjectId id, Representa
   counts.collapses = loop.run({.max_cost = static_cast<float>(options.tl_px)});
 
   const std::vector<Triangle> left = work.triangles();
+  for (std::uint32_t v = 0; v < vertices.positions.size(); ++v)
+    if (work.has_triangles(v)) vertices.positions[v] += metric.offset(v) * vertices.normals[v];
   CellMesh out = gather(vertices, level.source_vertex, left,
                         find_back_faces(bake, cell, object, vertices.positions, left));
   out.object = id;

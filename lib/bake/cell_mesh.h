@@ -15,7 +15,7 @@ struct BakeOptions {
   double ts_px = 5;           ///< T_s: self-occluding error up to which one view is enough
   double tl_px = 4.5;         ///< T_l: cost at which collapsing ends
   int resolution_px = 1024;   ///< of the captures, per face width
-  double max_drift_px = 1.0;  ///< see ViewMetricOptions
+  double max_drift_px = 0.5;  ///< see ViewMetricOptions
   double start_error_px =
       0.25;  ///< start from a level whose error projects to less; 0: the original
   CategoryOptions categories;

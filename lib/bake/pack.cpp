@@ -1,6 +1,7 @@
 #include "bake/pack.h"
 
 #include <algorithm>
+#include <cmath>
 #include <mutex>
 #include <set>
 
@@ -57,13 +58,28 @@ BundleObject describe(const CellMesh& mesh, Representation kind) {
   return out;
 }
 
-CellGeometry make_geometry(const CellMeshes& cell) {
+// How far the mesh's vertices lie off the object's own, along the normals.
+void append_offsets(const Scene& scene, const CellMesh& mesh, std::vector<std::int16_t>& offsets) {
+  const SceneObject& object = scene.objects[index(mesh.object)];
+  const TriMesh& original = scene.mesh_of(object).mesh;
+  for (std::size_t v = 0; v < mesh.source_vertex.size(); ++v) {
+    const glm::dvec3 at =
+        object.world_from_model(glm::dvec3(original.positions[mesh.source_vertex[v]]));
+    const double along =
+        glm::dot(glm::dvec3(mesh.vertices.positions[v]) - at, glm::dvec3(mesh.vertices.normals[v]));
+    offsets.push_back(
+        static_cast<std::int16_t>(std::lround(std::clamp(along / kOffsetUnit, -32767.0, 32767.0))));
+  }
+}
+
+CellGeometry make_geometry(const Scene& scene, const CellMeshes& cell) {
   CellGeometry out;
   for (std::size_t m = 0; m < cell.meshes.size(); ++m) {
     const CellMesh& mesh = cell.meshes[m];
     out.objects.push_back(describe(mesh, cell.kinds[m]));
     out.source_vertices.insert(out.source_vertices.end(), mesh.source_vertex.begin(),
                                mesh.source_vertex.end());
+    append_offsets(scene, mesh, out.offsets);
     for (const Triangle& t : mesh.triangles)
       out.indices.insert(out.indices.end(), t.begin(), t.end());
     out.views.insert(out.views.end(), mesh.views.begin(), mesh.views.end());
@@ -120,7 +136,7 @@ PackCounts pack_bundle(const Scene& scene, const CellSet& cells, const PackInput
   std::mutex mutex;  // guards both
   const auto pack_cell = [&](std::size_t i) {
     const CellMeshes meshes = read_cell_meshes(scene, cells, inputs, list[i]);
-    write_cell_geometry(cell_file(bundle, list[i]), make_geometry(meshes));
+    write_cell_geometry(cell_file(bundle, list[i]), make_geometry(scene, meshes));
     const std::lock_guard lock(mutex);
     add_needed(cells, list[i], meshes, needed);
     counts.n_inside += cells.inside[index(list[i])].size();
@@ -133,7 +149,7 @@ PackCounts pack_bundle(const Scene& scene, const CellSet& cells, const PackInput
   };
   parallel_for(list.size(), n_threads, pack_cell, progress);
 
-  BundleManifest manifest{scene.hash, settings.resolution_px, format, list, {}, made_by};
+  BundleManifest manifest{scene.hash, settings.density.resolution_px, format, list, {}, made_by};
   for (const auto& [centre, objects] : needed) manifest.centres.push_back(centre);
   const auto pack_centre = [&](std::size_t i) {
     const CentreId centre = manifest.centres[i];

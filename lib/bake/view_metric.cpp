@@ -5,39 +5,64 @@
 #include <limits>
 
 namespace viewcell {
+namespace {
+
+// An eye nearer than this to a surface would see nothing else: it does not drive the average.
+constexpr double kLeastDistance = 5;
+
+}  // namespace
 
 ViewMetric::ViewMetric(const ViewVertices& vertices, std::span<const Triangle> triangles,
                        const ViewMetricOptions& options)
-    : vertices_(vertices), options_(options), quadrics_(vertices.positions.size()) {
-  const std::size_t n = vertices.positions.size();
-  origin_ = n > 0 ? glm::dvec3(vertices.positions[0]) : glm::dvec3(0);
-  const auto at = [&](std::uint32_t v) { return glm::dvec3(vertices.positions[v]) - origin_; };
+    : vertices_(vertices),
+      options_(options),
+      origin_(vertices.positions.empty() ? glm::dvec3(0) : glm::dvec3(vertices.positions[0])),
+      quadrics_(vertices.positions.size()) {
+  add_quadrics(triangles);
+  add_views();
+}
+
+void ViewMetric::add_quadrics(std::span<const Triangle> triangles) {
+  const auto at = [&](std::uint32_t v) { return glm::dvec3(vertices_.positions[v]) - origin_; };
   for (const Triangle& t : triangles) {
     const glm::dvec3 normal = glm::cross(at(t[1]) - at(t[0]), at(t[2]) - at(t[0]));
     const double length = glm::length(normal);
     if (!(length > 0)) continue;
     for (const std::uint32_t v : t) quadrics_[v].add_plane(normal / length, at(v), length / 6);
   }
-  px_per_unit_.reserve(n);
-  for (const glm::vec3& p : vertices.positions) {
-    const double distance =
-        glm::length(glm::dvec3(p) - options.region_centre) - options.region_radius;
-    px_per_unit_.push_back(static_cast<float>(options.focal_px / std::max(distance, 1.0)));
-  }
-  directions_.reserve(n * options.eyes.size());
-  for (const glm::dvec3& eye : options.eyes)
-    for (const glm::vec3& p : vertices.positions)
-      directions_.emplace_back(options.focal_px * glm::normalize(glm::dvec3(p) - eye));
 }
 
-float ViewMetric::projected_length_px(std::uint32_t u, std::uint32_t v) const {
+void ViewMetric::add_views() {
   const std::size_t n = vertices_.positions.size();
-  float most = 0;
-  for (std::size_t first = 0; first < directions_.size(); first += n) {
-    const glm::vec3 d = directions_[first + u] - directions_[first + v];
-    most = std::max(most, glm::dot(d, d));
+  px_per_unit_.reserve(n), directions_.reserve(n), spread_.reserve(n), show_.reserve(n);
+  for (std::size_t v = 0; v < n; ++v) {
+    const glm::dvec3 p(vertices_.positions[v]);
+    double sum = 0;  // of 1 / distance^2
+    for (const glm::dvec3& eye : options_.samples)
+      sum += 1 / std::max(glm::dot(p - eye, p - eye), kLeastDistance * kLeastDistance);
+    const double inverse = std::sqrt(sum / static_cast<double>(options_.samples.size()));
+    px_per_unit_.push_back(static_cast<float>(options_.focal_px * inverse));
+    const glm::dvec3 direction = glm::normalize(p - options_.centre);
+    const double spread =
+        std::min(1.0, options_.radius / std::max(glm::length(p - options_.centre), 1e-9));
+    directions_.emplace_back(direction);
+    spread_.push_back(static_cast<float>(spread));
+    const double facing = std::abs(glm::dot(direction, glm::dvec3(vertices_.normals[v])));
+    const double parallax = std::min(1.0, 0.5 * options_.radius * inverse);
+    const double by_weight = vertices_.weights[v] / 0.5;
+    show_.push_back(
+        static_cast<float>(facing < spread ? 1.0 : std::min(1.0, std::max(by_weight, parallax))));
   }
-  return std::sqrt(most);
+}
+
+// The edge's length across the line of sight, and along it as far as the cell's points see it
+// turned.
+float ViewMetric::projected_length_px(std::uint32_t u, std::uint32_t v) const {
+  const glm::vec3 edge = vertices_.positions[v] - vertices_.positions[u];
+  const float along = glm::dot(edge, directions_[u]);
+  const float squared = std::max(glm::dot(edge, edge) - along * along, 0.0f);
+  const float turned = along * spread_[u];
+  return px_per_unit_[u] * std::sqrt(squared + turned * turned);
 }
 
 double ViewMetric::drift_px(std::uint32_t u, std::uint32_t v) const {
@@ -45,7 +70,7 @@ double ViewMetric::drift_px(std::uint32_t u, std::uint32_t v) const {
   const double weight = quadrics_[u].weight + quadrics_[v].weight;
   const double value = quadrics_[u].value(p) + quadrics_[v].value(p);
   if (!(weight > 0)) return 0;
-  return std::sqrt(std::max(value, 0.0) / weight) * px_per_unit_[v];
+  return std::sqrt(std::max(value, 0.0) / weight) * px_per_unit_[v] * std::max(show_[u], show_[v]);
 }
 
 float ViewMetric::cost(std::uint32_t u, std::uint32_t v) const {
@@ -56,9 +81,22 @@ float ViewMetric::cost(std::uint32_t u, std::uint32_t v) const {
     if ((a & b) == 0 && (a | b) != 0) return kNever;
   }
   const float away = 1.5f - glm::dot(vertices_.normals[u], vertices_.normals[v]);
-  const float cost =
+  const float paper =
       away * away * projected_length_px(u, v) * (vertices_.weights[u] + vertices_.weights[v]);
-  return drift_px(u, v) > options_.max_drift_px ? kNever : cost;
+  const double drift = options_.tl_px * drift_px(u, v) / options_.max_drift_px;
+  return std::max(paper, static_cast<float>(drift));
+}
+
+// The least of a quadric on a line p + t n: its derivative is linear in t.
+float ViewMetric::offset(std::uint32_t v) const {
+  const Quadric& q = quadrics_[v];
+  const glm::dvec3 n(vertices_.normals[v]);
+  const glm::dvec3 p = glm::dvec3(vertices_.positions[v]) - origin_;
+  const double curvature = q.value(p + n) + q.value(p - n) - 2 * q.value(p);
+  if (!(curvature > 1e-6 * q.weight)) return 0;
+  const double t = (q.value(p - n) - q.value(p + n)) / (2 * curvature);
+  const double most = options_.max_drift_px / px_per_unit_[v];
+  return static_cast<float>(std::clamp(t, -most, most));
 }
 
 // A triangle whose corners share a view must not come to share none (trap 16).

@@ -1,6 +1,7 @@
 // The cost of collapses that a view cell sees, as a metric of CollapseLoop.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <vector>
@@ -19,22 +20,26 @@ struct ViewVertices {
 };
 
 struct ViewMetricOptions {
-  std::vector<glm::dvec3>
-      eyes;               ///< from which an edge's projected length is measured; the largest counts
-  double focal_px = 887;  ///< pixels per unit tangent
-  bool keep_common_views =
-      false;  ///< MVMesh: u and v, and each new triangle, share a view or have none
-  /// No vertex may move farther than this from the planes of the triangles that it stands for, as
-  /// seen from the nearest eye, in px (Differs from [Chen06]: trap 14, no term bounds deviation).
-  double max_drift_px = 1.0;
-  glm::dvec3 region_centre{
-      0};                    ///< the nearest point of the region to a vertex bounds its distance:
-  double region_radius = 0;  ///< |vertex - region_centre| - region_radius
+  glm::dvec3 centre{0};             ///< of the cell
+  std::vector<glm::dvec3> samples;  ///< points of the cell over which pixels are averaged
+  double radius = 0;                ///< of the ball around the cell
+  double focal_px = 887;            ///< pixels per unit tangent
+  bool keep_common_views = false;  ///< MVMesh: u and v, and each new triangle, share a view or none
+  double tl_px = 4.5;              ///< T_l
+  double max_drift_px = 0.5;       ///< see ViewMetric
 };
 
-/// Follows: [Chen06 5.2.1], cost(u, v) = (1.5 - n_u . n_v)^2 l (w_u + w_v); the vertex of smaller
-/// weight collapses; equal weights: either way, the nearer to the surface first. A vertex keeps its
-/// own normal, weight and views when others collapse into it (trap 14).
+/// Follows: [Chen06 5.2.1], paper(u, v) = (1.5 - n_u . n_v)^2 l (w_u + w_v); the vertex of smaller
+/// weight collapses. A vertex keeps its own normal, weight and views when others collapse into it.
+///
+/// Differs (trap 14, no term bounds deviation): cost(u, v) = max(paper, T_l drift / max_drift), so
+/// that a collapse ends at T_l by either. drift is the root mean square distance in px of v to the
+/// planes of the triangles that it comes to stand for, times how much a displacement there shows:
+///   1 where the surface turns edge-on to some point of the cell, or the paper's weight is a
+///   silhouette's; elsewhere w / 0.5, and not less than the parallax that a displacement causes,
+///   half the cell's size over the distance.
+/// Pixels, in l and drift, are root mean squares over points of the cell (`samples`): by the
+/// nearest point alone, objects next to a cell would hardly be simplified at all.
 class ViewMetric {
  public:
   ViewMetric(const ViewVertices& vertices, std::span<const Triangle> triangles,
@@ -42,18 +47,29 @@ class ViewMetric {
 
   float cost(std::uint32_t u, std::uint32_t v) const;
   bool allows(const CollapseMesh& mesh, std::uint32_t u, std::uint32_t v) const;
-  void collapsed(std::uint32_t u, std::uint32_t v) { quadrics_[v].add(quadrics_[u]); }
+  void collapsed(std::uint32_t u, std::uint32_t v) {
+    quadrics_[v].add(quadrics_[u]);
+    show_[v] = std::max(show_[v], show_[u]);
+  }
+  /// How far v should move along its normal to lie best among the planes that it stands for, world
+  /// units, at most max_drift_px. Half-edge collapses keep vertices of a convex surface, so its
+  /// chords all lie inside: this takes the bias out of silhouettes.
+  float offset(std::uint32_t v) const;
 
  private:
+  void add_quadrics(std::span<const Triangle> triangles);
+  void add_views();
   double drift_px(std::uint32_t u, std::uint32_t v) const;
   float projected_length_px(std::uint32_t u, std::uint32_t v) const;
 
   const ViewVertices& vertices_;
   const ViewMetricOptions& options_;
-  std::vector<Quadric> quadrics_;      // around origin_
-  std::vector<float> px_per_unit_;     // at each vertex, from the nearest point of the region
-  std::vector<glm::vec3> directions_;  // eyes x vertices: unit directions times focal_px
-  glm::dvec3 origin_;
+  glm::dvec3 origin_;  // of the quadrics
+  std::vector<Quadric> quadrics_;
+  std::vector<float> px_per_unit_;     // at each vertex
+  std::vector<glm::vec3> directions_;  // unit, from the cell's centre
+  std::vector<float> spread_;          // sine of half the angle under which it sees the cell
+  std::vector<float> show_;            // how much a displacement shows, 0 to 1
 };
 
 }  // namespace viewcell

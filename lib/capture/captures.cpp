@@ -82,8 +82,9 @@ CapturePart part_of(const CaptureTile& tile) {
 }  // namespace
 
 std::string CaptureSettings::key() const {
-  return hash_hex(scene_hash + " " + cells_hash + " " + std::to_string(resolution_px) + " " +
-                  engine);
+  return hash_hex(scene_hash + " " + cells_hash + " " +
+                  Json({density.resolution_px, density.far_scale, density.far_distance}).dump() +
+                  " " + engine);
 }
 
 Json format_settings(const CaptureSettings& settings, const Json& provenance) {
@@ -92,7 +93,9 @@ Json format_settings(const CaptureSettings& settings, const Json& provenance) {
           {"made_by", provenance},
           {"scene_hash", settings.scene_hash},
           {"cells_hash", settings.cells_hash},
-          {"resolution_px", settings.resolution_px},
+          {"resolution_px", settings.density.resolution_px},
+          {"far_scale", settings.density.far_scale},
+          {"far_distance", settings.density.far_distance},
           {"engine", settings.engine},
           {"key", settings.key()}};
 }
@@ -105,7 +108,9 @@ CaptureSettings read_settings(const fs::path& folder, const Scene& scene,
   CaptureSettings settings;
   settings.scene_hash = root.at("scene_hash").string();
   settings.cells_hash = root.at("cells_hash").string();
-  settings.resolution_px = static_cast<int>(root.at("resolution_px").integer(1, 1 << 14));
+  settings.density.resolution_px = static_cast<int>(root.at("resolution_px").integer(1, 1 << 14));
+  settings.density.far_scale = root.at("far_scale").number(0.1, 16);
+  settings.density.far_distance = root.at("far_distance").number(0, 1e9);
   settings.engine = root.at("engine").string();
   if (settings.scene_hash != scene.hash)
     root.at("scene_hash").fail("these are captures of another scene; run depthcap again");

@@ -15,7 +15,7 @@ namespace viewcell {
 struct CaptureSettings {
   std::string scene_hash;
   std::string cells_hash;  ///< of cells.json's bytes
-  int resolution_px = 1024;
+  CaptureDensity density;
   std::string engine;  ///< "embree" or "gl"
   /// A hash of all of the above: files that carry another belong to another bake.
   std::string key() const;

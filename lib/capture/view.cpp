@@ -1,22 +1,31 @@
 #include "capture/view.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace viewcell {
 namespace {
 
-// A face width spans 60 degrees seen from the cell's centre.
-double focal_of(int resolution_px) {
-  return 0.5 * resolution_px / std::tan(glm::radians(30.0));
+// A face width spans 60 degrees seen from the cell's centre. A far object's source image has as
+// many pixels and a narrower angle.
+double focal_of(const glm::dvec3& eye, std::span<const glm::dvec3> points,
+                const CaptureDensity& density) {
+  const double focal = 0.5 * density.resolution_px / std::tan(glm::radians(30.0));
+  const double squared = density.far_distance * density.far_distance;
+  const bool is_far = std::all_of(points.begin(), points.end(), [&](const glm::dvec3& p) {
+    return glm::dot(p - eye, p - eye) > squared;
+  });
+  return is_far ? density.far_scale * focal : focal;
 }
 
-CaptureView make_view(const glm::dvec3& eye, const glm::dvec3& forward, int resolution_px) {
+CaptureView make_view(const glm::dvec3& eye, const glm::dvec3& forward, double focal_px,
+                      int resolution_px) {
   CaptureView view;
   view.eye = eye;
   view.forward = forward;
   view.right = glm::normalize(glm::cross(forward, glm::dvec3(0, 0, 1)));
   view.up = glm::cross(view.right, forward);
-  view.focal_px = focal_of(resolution_px);
+  view.focal_px = focal_px;
   view.source_px = resolution_px;
   return view;
 }
@@ -56,16 +65,18 @@ glm::dvec3 middle_of(std::span<const glm::dvec3> points) {
 }  // namespace
 
 std::optional<ViewedObject> choose_view(const glm::dvec3& eye, std::span<const glm::dvec3> points,
-                                        int resolution_px) {
+                                        const CaptureDensity& density) {
   if (points.empty()) return {};
   const glm::dvec3 toward = middle_of(points) - eye;
   const double azimuth_deg = glm::degrees(std::atan2(toward.y, toward.x));
   const double face_rad = glm::radians(60 * std::floor(azimuth_deg / 60) + 30);
-  CaptureView view = make_view(eye, {std::cos(face_rad), std::sin(face_rad), 0}, resolution_px);
+  const double focal_px = focal_of(eye, points, density);
+  CaptureView view =
+      make_view(eye, {std::cos(face_rad), std::sin(face_rad), 0}, focal_px, density.resolution_px);
   if (least_cosine(view, points) < std::cos(glm::radians(kTurnDeg))) {
     const double length = glm::length(toward);
     if (!(length > 0) || std::abs(toward.z) > 0.99 * length) return {};
-    view = make_view(eye, toward / length, resolution_px);
+    view = make_view(eye, toward / length, focal_px, density.resolution_px);
     if (least_cosine(view, points) < std::cos(glm::radians(kMostDeg))) return {};
   }
   return ViewedObject{view, crop_of(view, points)};

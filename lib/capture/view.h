@@ -49,12 +49,19 @@ inline constexpr double kMostDeg = 78;
 /// Pixels around the object's projection, for bilinear fetches and simplified rims.
 inline constexpr int kCropMargin_px = 3;
 
+/// How densely a centre samples what it sees.
+struct CaptureDensity {
+  int resolution_px = 1024;   ///< per width of a side face [Chen06 5.2.1]
+  double far_scale = 2;       ///< times that density for far objects (1: as the paper)
+  double far_distance = 300;  ///< an object is far when its nearest point is farther
+};
+
 /// The view of an object (its points in the world) from an eye: on the plane of the side face that
-/// the middle of its points lies behind, resolution_px per face width [Chen06 5.2.1]; or, when it
+/// the middle of its points lies behind, at the given density; or, when it
 /// reaches more than kTurnDeg from that face's axis, on a plane turned to its middle, at the same
 /// density there (trap 3). Nothing when it reaches more than kMostDeg from that axis too: the eye
 /// is then inside the object or all but touches it.
 std::optional<ViewedObject> choose_view(const glm::dvec3& eye, std::span<const glm::dvec3> points,
-                                        int resolution_px);
+                                        const CaptureDensity& density);
 
 }  // namespace viewcell

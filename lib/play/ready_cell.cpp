@@ -44,8 +44,9 @@ ReadyCell make_ready_cell(const Scene& scene, const CellSet& cells, CellId cell,
                            glm::vec3(o.hi[0], o.hi[1], o.hi[2]), find_windows(cells, cell, o)});
     for (std::uint32_t k = 0; k < o.n_vertices; ++k, ++v) {
       const std::uint32_t source = g.source_vertices[v];
-      const glm::dvec3 p = object.world_from_model(glm::dvec3(mesh.positions[source]));
       const glm::dvec3 n = object.rotation * glm::dvec3(mesh.normals[source]);
+      const glm::dvec3 p = object.world_from_model(glm::dvec3(mesh.positions[source])) +
+                           kOffsetUnit * g.offsets[v] * n;
       out.vertices.push_back(
           {glm::vec3(p - out.origin), {quantise(n.x), quantise(n.y), quantise(n.z), 0}});
     }

@@ -76,7 +76,7 @@ int run(const Tool& tool, Representation kind, Options& options) {
   const auto list = select_cells(cells, options.cell_list, options.slice);
   const CaptureSettings settings =
       read_settings(options.captures, scene, hash_file(options.cells_file));
-  options.bake.resolution_px = settings.resolution_px;
+  options.bake.resolution_px = settings.density.resolution_px;
   const std::string made_by =
       make_provenance(tool, format_options(options.bake), {{"captures", settings.key()}}).dump();
   const std::string key = hash_hex(made_by);

@@ -16,7 +16,7 @@ namespace {
 struct Options {
   std::string scene_file, cells_file;
   std::string cell_list = "all", slice;
-  int resolution_px = 1024;
+  CaptureDensity density;
   std::string engine = "embree";
 };
 
@@ -27,9 +27,15 @@ void declare(Tool& tool, Options& options) {
   app.add_option("--cells", options.cell_list, "all | 3,7,10-19 | @FILE | path:path.json")
       ->capture_default_str();
   app.add_option("--slice", options.slice, "I/N: every N-th of those cells, from the I-th");
-  app.add_option("--resolution", options.resolution_px, "pixels per width of a side face")
+  app.add_option("--resolution", options.density.resolution_px, "pixels per width of a side face")
       ->capture_default_str()
       ->check(CLI::Range(16, 8192));
+  app.add_option("--far-scale", options.density.far_scale, "times that density for far objects")
+      ->capture_default_str()
+      ->check(CLI::Range(0.1, 16.0));
+  app.add_option("--far-distance", options.density.far_distance, "from where an object is far")
+      ->capture_default_str()
+      ->check(CLI::Range(0.0, 1e9));
   app.add_option("--engine", options.engine, "embree | gl")
       ->capture_default_str()
       ->check(CLI::IsMember({"embree"}));
@@ -52,7 +58,7 @@ int run(const Tool& tool, const Options& options) {
   const CellSet cells = read_cells(options.cells_file);
   check_cells_of_scene(cells, scene, options.cells_file);
   const auto centres = centres_of(cells, select_cells(cells, options.cell_list, options.slice));
-  const CaptureSettings settings{scene.hash, hash_file(options.cells_file), options.resolution_px,
+  const CaptureSettings settings{scene.hash, hash_file(options.cells_file), options.density,
                                  options.engine};
   const std::filesystem::path folder = tool.common().output;
   make_folder(folder);
@@ -69,7 +75,7 @@ int run(const Tool& tool, const Options& options) {
     std::vector<CaptureTile> tiles;
     for (const ObjectId object : objects_seen_from(cells, centres[i])) {
       const auto viewed =
-          choose_view(eye_of(cells, centres[i]), points[index(object)], options.resolution_px);
+          choose_view(eye_of(cells, centres[i]), points[index(object)], options.density);
       n_left_out += !viewed;
       if (!viewed) continue;
       tiles.push_back(engine.capture(object, viewed->view, viewed->crop));
@@ -80,9 +86,12 @@ int run(const Tool& tool, const Options& options) {
     write_captures(file, tiles, settings);
   };
   parallel_for(centres.size(), n_threads, capture_centre, tool.progress("centres"));
-  const Json made_by =
-      make_provenance(tool, {{"resolution", options.resolution_px}, {"engine", options.engine}},
-                      {{"scene", scene.hash}, {"cells", settings.cells_hash}});
+  const Json made_by = make_provenance(tool,
+                                       {{"resolution", options.density.resolution_px},
+                                        {"far_scale", options.density.far_scale},
+                                        {"far_distance", options.density.far_distance},
+                                        {"engine", options.engine}},
+                                       {{"scene", scene.hash}, {"cells", settings.cells_hash}});
   write_file(folder / kCapturesManifest, format_json(format_settings(settings, made_by)));
   tool.report({{"centres", centres.size()},
                {"kept", n_kept.load()},
