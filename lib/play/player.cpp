@@ -34,6 +34,7 @@ Player::Player(const Bundle& bundle, const PlayerOptions& options)
       scene_renderer_(context_.gl(), bundle.scene(), levels_),
       residency_(context_.gl(), bundle, options.residency),
       hybrid_renderer_(context_.gl(), bundle.scene(), options.hybrid),
+      floor_(context_.gl(), options.width_px, options.height_px),
       ray_image_(options.width_px, options.height_px) {
   if (options.with_raycast)
     ray_caster_ = std::make_unique<RayCaster>(bundle.scene(), options.n_threads);
@@ -95,6 +96,11 @@ DrawnFrame Player::draw(Mode mode, const Camera& camera) {
 
 ImageRgba8 Player::read(Mode mode) const {
   return mode == Mode::raycast ? ray_image_ : target_.read_rgba8();
+}
+
+void Player::draw_floor() {
+  floor_.draw(target_);
+  context_.gl().Finish();
 }
 
 ImageRgba8 Player::draw_shifted(const Camera& camera, const glm::dvec2& shift_px) {

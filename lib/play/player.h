@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "gl/context.h"
+#include "play/floor.h"
 #include "play/hybrid_renderer.h"
 #include "play/raycast.h"
 #include "play/scene_renderer.h"
@@ -49,6 +50,10 @@ class Player {
   /// Hybrid, outside objects in colours of their kind.
   ImageRgba8 draw_kinds(const Camera& camera, HybridStyle style);
 
+  /// A clear and a full-screen textured quad: the floor under every time.
+  void draw_floor();
+
+  const PlayerOptions& options() const { return options_; }
   const GlContext& context() const { return context_; }
   const Residency& residency() const { return residency_; }
 
@@ -65,6 +70,7 @@ class Player {
   SceneRenderer scene_renderer_;
   Residency residency_;
   HybridRenderer hybrid_renderer_;
+  FloorQuad floor_;
   std::unique_ptr<RayCaster> ray_caster_;
   ImageRgba8 ray_image_;
 };

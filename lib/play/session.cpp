@@ -1,0 +1,177 @@
+#include "play/session.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+
+#include "base/file.h"
+#include "base/parallel.h"
+#include "image/io.h"
+#include "image/metrics.h"
+#include "play/floor.h"
+
+namespace viewcell {
+namespace {
+
+constexpr double kDifferenceGain = 8;
+
+// A pass over the frames, told to the progress as one of two.
+class Pass {
+ public:
+  Pass(const Progress& progress, std::size_t n_frames, std::size_t first)
+      : progress_(progress), total_(2 * n_frames), done_(first) {}
+  void step() {
+    if (progress_) progress_(++done_, total_);
+  }
+
+ private:
+  const Progress& progress_;
+  std::size_t total_, done_;
+};
+
+double time_floor(Player& player) {
+  const auto start = std::chrono::steady_clock::now();
+  player.draw_floor();
+  const std::chrono::duration<double, std::milli> ms = std::chrono::steady_clock::now() - start;
+  return ms.count();
+}
+
+void time_frames(Player& player, const std::vector<Camera>& cameras, const SessionOptions& options,
+                 Timeline& timeline, Pass pass) {
+  for (const Mode mode : options.modes) player.draw(mode, cameras[0]);  // shaders are compiled here
+  time_floor(player);
+  for (const Camera& camera : cameras) {
+    for (std::size_t m = 0; m < options.modes.size(); ++m) {
+      const DrawnFrame drawn = player.draw(options.modes[m], camera);
+      timeline.modes[m].frames.push_back(
+          {drawn.ms, drawn.n_triangles, drawn.n_draws, drawn.texture_bytes, {}});
+    }
+    timeline.floor_ms.push_back(time_floor(player));
+    pass.step();
+  }
+}
+
+void save_frame(const SessionOptions& options, Mode mode, std::size_t frame,
+                const ImageRgba8& picture) {
+  if (options.save.empty() || frame % options.save_every != 0) return;
+  char name[32];
+  std::snprintf(name, sizeof name, "frame-%05zu.png", frame);
+  const std::filesystem::path folder = options.save / mode_name(mode);
+  make_folder(folder);
+  write_png(folder / name, picture);
+}
+
+// The pictures of one frame: quality and saved files.
+class Comparer {
+ public:
+  Comparer(Player& player, const SessionOptions& options, Timeline& timeline)
+      : player_(player), options_(options), timeline_(timeline) {}
+
+  void compare(std::size_t i, const Camera& camera) {
+    const ImageRgba8 reference = draw(options_.reference, camera);
+    FrameInfo& info = timeline_.frames[i];
+    info.coverage = measure_coverage(reference);
+    info.yardstick = measure_quality(reference, player_.draw_shifted(camera, {0.5, 0.5}));
+    for (std::size_t m = 0; m < options_.modes.size(); ++m) {
+      const Mode mode = options_.modes[m];
+      const ImageRgba8 picture = mode == options_.reference ? reference : draw(mode, camera);
+      timeline_.modes[m].frames[i].quality = measure_quality(reference, picture);
+      save_frame(options_, mode, i, picture);
+    }
+  }
+
+  SheetRow make_row(std::size_t i, const Camera& camera) {
+    char label[96];
+    std::snprintf(label, sizeof label, "frame %zu, %.1f s, cell %d", i, timeline_.frames[i].time_s,
+                  timeline_.frames[i].cell);
+    const ImageRgba8 reference = draw(options_.reference, camera);
+    const ImageRgba8 hybrid = draw(Mode::hybrid, camera);
+    char note[64];
+    const PictureQuality quality = measure_quality(reference, hybrid);
+    std::snprintf(note, sizeof note, "%.1f dB, covered %.1f dB", quality.psnr_db,
+                  quality.psnr_covered_db);
+    return {label,
+            {reference, hybrid, difference_image(reference, hybrid, kDifferenceGain),
+             player_.draw_kinds(camera, HybridStyle::wireframe)},
+            {"", note}};
+  }
+
+ private:
+  ImageRgba8 draw(Mode mode, const Camera& camera) {
+    player_.draw(mode, camera);
+    return player_.read(mode);
+  }
+
+  Player& player_;
+  const SessionOptions& options_;
+  Timeline& timeline_;
+};
+
+// Evenly along the path, each moved to the frame around it in which objects cover most.
+std::vector<std::size_t> choose_sheet_frames(const Timeline& timeline, std::size_t n_rows) {
+  std::vector<std::size_t> chosen;
+  const std::size_t n = timeline.frames.size();
+  for (std::size_t r = 0; r < std::min(n_rows, n); ++r) {
+    const auto first = timeline.frames.begin() + static_cast<std::ptrdiff_t>(r * n / n_rows);
+    const auto last = timeline.frames.begin() + static_cast<std::ptrdiff_t>((r + 1) * n / n_rows);
+    const auto best = std::max_element(first, last, [](const FrameInfo& a, const FrameInfo& b) {
+      return a.coverage < b.coverage;
+    });
+    chosen.push_back(static_cast<std::size_t>(best - timeline.frames.begin()));
+  }
+  return chosen;
+}
+
+Timeline start_timeline(const Player& player, const Bundle& bundle, const CameraPath& path,
+                        const std::vector<Camera>& cameras, const SessionOptions& options) {
+  Timeline timeline;
+  timeline.width_px = player.options().width_px;
+  timeline.height_px = player.options().height_px;
+  timeline.renderer = player.context().renderer();
+  timeline.gl_threads = player.context().n_threads();
+  timeline.n_threads =
+      player.options().n_threads > 0 ? player.options().n_threads : hardware_threads();
+  timeline.reference = mode_name(options.reference);
+  const double start = path.samples.front().time_s;
+  const double span = path.samples.back().time_s - start;
+  for (std::size_t i = 0; i < cameras.size(); ++i) {
+    FrameInfo info;
+    const std::size_t steps = std::max<std::size_t>(1, cameras.size() - 1);
+    info.time_s = start + span * static_cast<double>(i) / static_cast<double>(steps);
+    const HexGrid& grid = bundle.cells().grid;
+    if (const auto cell = cell_at(grid, place_at(grid, glm::dvec2(cameras[i].eye))))
+      info.cell = static_cast<int>(*cell);
+    timeline.frames.push_back(info);
+  }
+  for (const Mode mode : options.modes) timeline.modes.push_back({mode_name(mode), {}});
+  return timeline;
+}
+
+}  // namespace
+
+Session run_session(Player& player, const Bundle& bundle, const CameraPath& path,
+                    const SessionOptions& options, const Progress& progress) {
+  const std::vector<Camera> cameras = sample_path(path, options.n_frames);
+  Session session;
+  session.timeline = start_timeline(player, bundle, path, cameras, options);
+  time_frames(player, cameras, options, session.timeline, Pass(progress, cameras.size(), 0));
+  if (!options.with_quality) return session;
+
+  Comparer comparer(player, options, session.timeline);
+  Pass pass(progress, cameras.size(), cameras.size());
+  for (std::size_t i = 0; i < cameras.size(); ++i) {
+    comparer.compare(i, cameras[i]);
+    pass.step();
+  }
+  const bool has_hybrid =
+      std::find(options.modes.begin(), options.modes.end(), Mode::hybrid) != options.modes.end();
+  if (!has_hybrid) return session;
+  std::vector<SheetRow> rows;
+  for (const std::size_t i : choose_sheet_frames(session.timeline, options.n_sheet_rows))
+    rows.push_back(comparer.make_row(i, cameras[i]));
+  session.contact_sheet = make_contact_sheet(
+      {mode_name(options.reference), "hybrid", "difference x 8", "MVMesh, SVMesh, original"}, rows);
+  return session;
+}
+
+}  // namespace viewcell

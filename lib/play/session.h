@@ -1,0 +1,34 @@
+// One run of the player along a path: every mode timed, then compared with the reference.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "base/parallel.h"
+#include "play/contact_sheet.h"
+#include "play/player.h"
+#include "play/timeline.h"
+
+namespace viewcell {
+
+struct SessionOptions {
+  std::vector<Mode> modes;
+  Mode reference = Mode::frustum;
+  std::size_t n_frames = 120;
+  std::filesystem::path save;  ///< folder of frames, MODE/frame-00012.png; empty: none
+  std::size_t save_every = 1;
+  std::size_t n_sheet_rows = 4;  ///< frames on the contact sheet
+  bool with_quality = true;      ///< compare pictures (some seconds a hundred frames and mode)
+};
+
+struct Session {
+  Timeline timeline;
+  ImageRgba8 contact_sheet;  ///< reference | hybrid | difference x 8 | kinds; empty without hybrid
+};
+
+/// First every frame is drawn in every mode, interleaved and timed, from a bundle of which one cell
+/// is loaded; then the frames are drawn again to be read back, compared and saved.
+Session run_session(Player& player, const Bundle& bundle, const CameraPath& path,
+                    const SessionOptions& options, const Progress& progress = {});
+
+}  // namespace viewcell
