@@ -18,7 +18,9 @@ namespace viewcell {
 namespace fs = std::filesystem;
 namespace {
 
-std::string errno_text() { return std::strerror(errno); }
+std::string errno_text() {
+  return std::strerror(errno);
+}
 
 // A file descriptor that closes itself.
 class Descriptor {
@@ -56,6 +58,12 @@ void write_all(int fd, std::string_view bytes, const std::string& name) {
     if (n < 0) throw MachineError(name + ": cannot write: " + errno_text());
     bytes.remove_prefix(static_cast<std::size_t>(n));
   }
+}
+
+// A device or a pipe: it is written to, for a rename would put a file in its place.
+bool is_special(const fs::path& path) {
+  struct stat info {};
+  return ::stat(path.c_str(), &info) == 0 && !S_ISREG(info.st_mode) && !S_ISDIR(info.st_mode);
 }
 
 // Unique in this process and among processes; leading dot, so that globs pass it over.
@@ -102,6 +110,11 @@ std::string read_file(const fs::path& path, std::uint64_t max_bytes) {
 
 void write_file(const fs::path& path, std::string_view bytes) {
   if (path == "-") return write_all(1, bytes, "standard output");
+  if (is_special(path)) {
+    const Descriptor fd(::open(path.c_str(), O_WRONLY | O_CLOEXEC));
+    if (fd.get() < 0) throw MachineError(path.string() + ": cannot open: " + errno_text());
+    return write_all(fd.get(), bytes, path.string());
+  }
   PendingFile pending(path);
   {
     const Descriptor fd(
@@ -149,8 +162,7 @@ fs::path resolve_inside(const fs::path& file, const std::string& place,
   const fs::path folder = file.has_parent_path() ? file.parent_path() : ".";
   const fs::path root = fs::weakly_canonical(folder);
   const fs::path full = fs::weakly_canonical(folder / relative);
-  const auto [at_root, at_full] =
-      std::mismatch(root.begin(), root.end(), full.begin(), full.end());
+  const auto [at_root, at_full] = std::mismatch(root.begin(), root.end(), full.begin(), full.end());
   if (at_root != root.end()) refuse("leaves the file's folder");
   return folder / relative;
 }
@@ -166,6 +178,8 @@ std::string hash_hex(std::string_view bytes) {
   return text;
 }
 
-std::string hash_file(const fs::path& path) { return hash_hex(read_file(path)); }
+std::string hash_file(const fs::path& path) {
+  return hash_hex(read_file(path));
+}
 
 }  // namespace viewcell

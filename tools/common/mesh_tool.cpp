@@ -18,7 +18,7 @@ struct Options {
 
 void declare_weights(CLI::App& app, WeightOptions& w) {
   const auto add = [&](const char* flag, double& value, const char* what) {
-    app.add_option(flag, value, what)->capture_default_str()->check(CLI::Range(0.0, 100.0));
+    app.add_option(flag, value, what)->capture_default_str()->check(within(0, 100));
   };
   add("--weight-exterior", w.exterior_silhouette, "weight of exterior silhouettes");
   add("--weight-interior-silhouette", w.interior_silhouette, "weight of C0 discontinuities");
@@ -37,7 +37,7 @@ void declare(Tool& tool, Options& options) {
       ->capture_default_str();
   app.add_option("--slice", options.slice, "I/N: every N-th of those cells, from the I-th");
   const auto add = [&](const char* flag, double& value, const char* what) {
-    app.add_option(flag, value, what)->capture_default_str()->check(CLI::Range(0.0, 1e6));
+    app.add_option(flag, value, what)->capture_default_str()->check(within(0, 1e6));
   };
   BakeOptions& bake = options.bake;
   add("--ts", bake.ts_px, "T_s: self-occluding error, px, up to which one view is enough");

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <iostream>
 #include <new>
+#include <sstream>
 
 #include "base/error.h"
 #include "base/file.h"
@@ -21,6 +22,17 @@ std::string one_line(const std::string& text) {
 }
 
 }  // namespace
+
+CLI::Validator within(double lo, double hi) {
+  std::ostringstream range;
+  range << lo << " to " << hi;
+  const auto check = [lo, hi, text = range.str()](std::string& given) {
+    double x = 0;
+    if (CLI::detail::lexical_cast(given, x) && x >= lo && x <= hi) return std::string();
+    return "'" + given + "' is not within " + text;
+  };
+  return {check, range.str()};
+}
 
 Tool::Tool(const std::string& name, const std::string& description, const std::string& example)
     : name_(name), app_(description, name) {

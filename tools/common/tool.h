@@ -11,6 +11,9 @@
 
 namespace viewcell {
 
+/// For options: a number within [lo, hi]. CLI::Range lets NaN through.
+CLI::Validator within(double lo, double hi);
+
 /// The options that every tool has.
 struct CommonOptions {
   std::string output;     ///< -o

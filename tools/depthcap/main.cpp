@@ -32,10 +32,10 @@ void declare(Tool& tool, Options& options) {
       ->check(CLI::Range(16, 8192));
   app.add_option("--far-scale", options.density.far_scale, "times that density for far objects")
       ->capture_default_str()
-      ->check(CLI::Range(0.1, 16.0));
+      ->check(within(0.1, 16));
   app.add_option("--far-distance", options.density.far_distance, "from where an object is far")
       ->capture_default_str()
-      ->check(CLI::Range(0.0, 1e9));
+      ->check(within(0, 1e9));
   app.add_option("--engine", options.engine, "embree | gl")
       ->capture_default_str()
       ->check(CLI::IsMember({"embree"}));

@@ -32,7 +32,7 @@ void declare(Tool& tool, Options& options) {
   tool.app()
       .add_option("--size", options.size, "circumradius of a cell")
       ->capture_default_str()
-      ->check(CLI::Range(1e-3, 1e6));
+      ->check(within(1e-3, 1e6));
   tool.app()
       .add_option("--eye-height", options.eye_height, "range of the eye's heights, LO:HI")
       ->capture_default_str();
