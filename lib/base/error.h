@@ -12,8 +12,16 @@ namespace viewcell {
 class InputError : public std::runtime_error {
  public:
   /// place may be empty ("object 17", "line 3", "byte 120").
+  /// Control characters, which come from the input, become spaces.
   InputError(const std::string& file, const std::string& place, const std::string& what)
-      : std::runtime_error(file + (place.empty() ? "" : ": " + place) + ": " + what) {}
+      : std::runtime_error(one_line(file + (place.empty() ? "" : ": " + place) + ": " + what)) {}
+
+ private:
+  static std::string one_line(std::string text) {
+    for (char& c : text)
+      if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
+    return text;
+  }
 };
 
 /// The command line is at fault: exit code 2.

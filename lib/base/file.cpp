@@ -146,8 +146,9 @@ void PendingFile::commit() {
 void make_folder(const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
-  if (fs::is_directory(folder)) return;
-  if (fs::exists(folder)) throw InputError(folder.string(), "", "is a file, not a folder");
+  std::error_code ignored;
+  if (fs::is_directory(folder, ignored)) return;
+  if (fs::exists(folder, ignored)) throw InputError(folder.string(), "", "is a file, not a folder");
   throw MachineError(folder.string() + ": cannot make the folder: " + error.message());
 }
 
@@ -156,12 +157,18 @@ fs::path resolve_inside(const fs::path& file, const std::string& place,
   const auto refuse = [&](const std::string& why) -> void {
     throw InputError(file.string(), place, "path '" + relative + "' " + why);
   };
+  const auto canonical = [&](const fs::path& path) {
+    std::error_code error;  // a loop of links, a name too long, a folder that may not be entered
+    fs::path out = fs::weakly_canonical(path, error);
+    if (error) refuse("cannot be followed: " + error.message());
+    return out;
+  };
   if (relative.empty()) refuse("is empty");
   if (relative.find('\0') != std::string::npos) refuse("holds a zero byte");
   if (fs::path(relative).is_absolute()) refuse("is absolute; it must be relative to the file");
   const fs::path folder = file.has_parent_path() ? file.parent_path() : ".";
-  const fs::path root = fs::weakly_canonical(folder);
-  const fs::path full = fs::weakly_canonical(folder / relative);
+  const fs::path root = canonical(folder);
+  const fs::path full = canonical(folder / relative);
   const auto [at_root, at_full] = std::mismatch(root.begin(), root.end(), full.begin(), full.end());
   if (at_root != root.end()) refuse("leaves the file's folder");
   return folder / relative;

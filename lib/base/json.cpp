@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/error.h"
 #include "base/file.h"
@@ -125,10 +126,23 @@ double JsonCursor::number(double lo, double hi) const {
 }
 
 std::int64_t JsonCursor::integer(std::int64_t lo, std::int64_t hi) const {
-  const double x =
-      number(static_cast<double>(lo), static_cast<double>(hi));
-  if (x != std::floor(x)) fail(value_->dump() + " is not a whole number");
-  return static_cast<std::int64_t>(x);
+  if (!value_->is_number()) fail("is not a number");
+  const auto refuse = [&] {
+    fail(value_->dump() + " is not within " + std::to_string(lo) + " to " + std::to_string(hi));
+  };
+  if (!value_->is_number_integer()) {  // 3.0 is a whole number too
+    const double x = value_->get<double>();
+    if (x != std::floor(x)) fail(value_->dump() + " is not a whole number");
+    constexpr double kExact = 0x1p53;  // beyond, a double may stand for several integers
+    if (!(std::abs(x) <= kExact) || x < static_cast<double>(lo) || x > static_cast<double>(hi))
+      refuse();
+    return static_cast<std::int64_t>(x);
+  }
+  constexpr auto kMost = static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max());
+  if (value_->is_number_unsigned() && value_->get<std::uint64_t>() > kMost) refuse();
+  const auto i = value_->get<std::int64_t>();
+  if (i < lo || i > hi) refuse();
+  return i;
 }
 
 bool JsonCursor::boolean() const {

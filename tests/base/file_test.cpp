@@ -1,0 +1,168 @@
+#include "base/file.h"
+
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <fstream>
+
+#include "base/random.h"
+#include "mesh/expect_input_error.h"
+#include "mesh/temporary_folder.h"
+
+namespace viewcell {
+namespace {
+namespace fs = std::filesystem;
+
+std::size_t count_entries(const fs::path& folder) {
+  return static_cast<std::size_t>(
+      std::distance(fs::directory_iterator(folder), fs::directory_iterator()));
+}
+
+TEST(WriteFile, ReadsBackEveryByte) {
+  const TemporaryFolder folder;
+  for (const std::size_t n : {0u, 1u, 4095u, 4096u, 4097u, 100000u}) {
+    SCOPED_TRACE(n);
+    Random random(n);
+    std::string bytes(n, '\0');
+    for (char& c : bytes) c = static_cast<char>(random.below(256));
+    write_file(folder.path() / "a", bytes);
+    EXPECT_EQ(read_file(folder.path() / "a"), bytes);
+    EXPECT_EQ(hash_file(folder.path() / "a"), hash_hex(bytes));
+  }
+  EXPECT_EQ(count_entries(folder.path()), 1u);  // no temporary is left
+}
+
+TEST(WriteFile, FailureLeavesTheTargetAndNoTemporary) {
+  const TemporaryFolder folder;
+  fs::create_directory(folder.path() / "taken");
+  write_file(folder.path() / "taken" / "old", "old");
+  EXPECT_THROW(write_file(folder.path() / "taken", "new"), MachineError);
+  EXPECT_EQ(read_file(folder.path() / "taken" / "old"), "old");
+  EXPECT_THROW(write_file(folder.path() / "absent" / "file", "new"), MachineError);
+  EXPECT_EQ(count_entries(folder.path()), 1u);
+}
+
+TEST(PendingFile, WithoutCommitTheTargetStaysAndTheTemporaryGoes) {
+  const TemporaryFolder folder;
+  const fs::path target = folder.add("a.exr", "old");
+  fs::path temporary;
+  {
+    const PendingFile pending(target);
+    temporary = pending.temporary();
+    std::ofstream(temporary) << "half of i";
+    EXPECT_TRUE(fs::exists(temporary));
+    EXPECT_EQ(temporary.extension(), ".exr");
+    EXPECT_EQ(temporary.parent_path(), target.parent_path());
+  }
+  EXPECT_FALSE(fs::exists(temporary));
+  EXPECT_EQ(read_file(target), "old");
+}
+
+TEST(PendingFile, CommitReplacesTheTarget) {
+  const TemporaryFolder folder;
+  const fs::path target = folder.add("a", "old");
+  {
+    PendingFile pending(target);
+    std::ofstream(pending.temporary()) << "new";
+    EXPECT_EQ(read_file(target), "old");
+    pending.commit();
+    EXPECT_EQ(read_file(target), "new");
+    write_file(target, "newer");
+  }
+  EXPECT_EQ(read_file(target), "newer");  // the destructor removes nothing after commit
+  EXPECT_EQ(count_entries(folder.path()), 1u);
+}
+
+TEST(PendingFile, TwoOfOneTargetDoNotMeet) {
+  const TemporaryFolder folder;
+  const PendingFile a(folder.path() / "a"), b(folder.path() / "a");
+  EXPECT_NE(a.temporary(), b.temporary());
+}
+
+TEST(PendingFile, CommitOfNothingIsTheMachinesFault) {
+  const TemporaryFolder folder;
+  const fs::path target = folder.add("a", "old");
+  PendingFile pending(target);
+  EXPECT_THROW(pending.commit(), MachineError);
+  EXPECT_EQ(read_file(target), "old");
+}
+
+TEST(ReadFile, RefusesWhatIsNoReadableFile) {
+  const TemporaryFolder folder;
+  EXPECT_INPUT_ERROR(read_file(folder.path() / "absent"), "absent: cannot open");
+  EXPECT_INPUT_ERROR(read_file(folder.path()), "is a folder");
+  const fs::path file = folder.add("a", "12345");
+  EXPECT_EQ(read_file(file, 5), "12345");
+  EXPECT_INPUT_ERROR(read_file(file, 4), "5 bytes, more than 4");
+}
+
+TEST(ReadFile, ReadsAFileWithoutASize) {
+  EXPECT_NE(read_file("/proc/self/status").find("Name:"), std::string::npos);
+  EXPECT_INPUT_ERROR(read_file("/proc/self/status", 10), "more than 10 bytes");
+}
+
+TEST(MakeFolder, MakesParentsAndAcceptsWhatIsThere) {
+  const TemporaryFolder folder;
+  make_folder(folder.path() / "a" / "b");
+  make_folder(folder.path() / "a" / "b");
+  EXPECT_TRUE(fs::is_directory(folder.path() / "a" / "b"));
+  folder.add("file", "");
+  EXPECT_INPUT_ERROR(make_folder(folder.path() / "file"), "is a file, not a folder");
+  EXPECT_THROW(make_folder(folder.path() / "file" / "below"), MachineError);
+  EXPECT_THROW(make_folder(folder.path() / std::string(300, 'x')), MachineError);
+}
+
+TEST(ResolveInside, AcceptsWhatStaysInside) {
+  const TemporaryFolder folder;
+  make_folder(folder.path() / "sub");
+  const fs::path scene = folder.add("scene.json", "");
+  const fs::path mesh = folder.add("sub/mesh.ply", "x");
+  for (const char* path :
+       {"sub/mesh.ply", "./sub/mesh.ply", "sub/../sub/mesh.ply", "sub//mesh.ply"})
+    EXPECT_TRUE(fs::equivalent(resolve_inside(scene, "", path), mesh)) << path;
+  EXPECT_EQ(resolve_inside(scene, "", "absent.ply"), folder.path() / "absent.ply");
+  EXPECT_NO_THROW(resolve_inside(scene, "", "..mesh"));
+  fs::create_symlink("sub/mesh.ply", folder.path() / "link.ply");
+  EXPECT_NO_THROW(resolve_inside(scene, "", "link.ply"));
+}
+
+TEST(ResolveInside, RefusesWhatLeaves) {
+  const TemporaryFolder folder;
+  make_folder(folder.path() / "park");
+  make_folder(folder.path() / "park-2");
+  const fs::path scene = folder.add("park/scene.json", "");
+  folder.add("secret", "x");
+  fs::create_symlink("../secret", folder.path() / "park" / "link");
+  fs::create_symlink("..", folder.path() / "park" / "up");
+  const std::string absolute = (folder.path() / "park" / "scene.json").string();
+  for (const std::string path : {"..", "../secret", "../park-2/x", "a/../../secret", "./../secret",
+                                 "link", "up/secret", "up/park/../secret", "/etc/passwd"})
+    EXPECT_INPUT_ERROR(resolve_inside(scene, "meshes[2].file", path),
+                       "scene.json: meshes[2].file: path '" + path + "'");
+  EXPECT_INPUT_ERROR(resolve_inside(scene, "", absolute), "is absolute");
+  EXPECT_INPUT_ERROR(resolve_inside(scene, "", ""), "is empty");
+  EXPECT_INPUT_ERROR(resolve_inside(scene, "", std::string("a\0b", 3)), "zero byte");
+}
+
+TEST(ResolveInside, RefusesWhatTheSystemCannotFollow) {
+  const TemporaryFolder folder;
+  const fs::path scene = folder.add("scene.json", "");
+  fs::create_symlink("loop", folder.path() / "loop");
+  EXPECT_INPUT_ERROR(resolve_inside(scene, "", "loop"), "path 'loop'");
+  EXPECT_INPUT_ERROR(resolve_inside(scene, "", std::string(300, 'x')), "path 'xxx");
+}
+
+// A message is one line whatever the file says.
+TEST(ResolveInside, MessageIsOneLine) {
+  const TemporaryFolder folder;
+  EXPECT_INPUT_ERROR(resolve_inside(folder.add("scene.json", ""), "", "../a\nb"), "leaves");
+}
+
+TEST(Hash, IsXxh3) {
+  EXPECT_EQ(hash_hex(""), "2d06800538d394c2");  // XXH3_64bits of nothing, seed 0
+  EXPECT_EQ(hash_hex("a").size(), 16u);
+  EXPECT_NE(hash_hex("a"), hash_hex("b"));
+}
+
+}  // namespace
+}  // namespace viewcell
