@@ -66,13 +66,15 @@ void Panorama::cover(double angle_rad, double slope, double half_angle, double h
   };
   const int row_lo = row_of(std::clamp(slope - half_slope, -1.0, 1.0));
   const int row_hi = row_of(std::clamp(slope + half_slope, -1.0, 1.0));
+  if (row_lo >= row_hi) return;
+  const std::uint64_t lower = bits_between(row_lo, row_hi);
+  const std::uint64_t upper = bits_between(row_lo - 64, row_hi - 64);
   const auto column_lo = static_cast<int>(std::ceil((angle_rad - half_angle) / kColumnRad - 0.5));
   const auto column_hi = static_cast<int>(std::ceil((angle_rad + half_angle) / kColumnRad - 0.5));
   for (int i = column_lo; i < std::min(column_hi, column_lo + kColumns); ++i) {
     Column& column = columns_[static_cast<std::size_t>((i % kColumns + kColumns) % kColumns)];
-    for (int word = 0; word < kRows / 64; ++word)
-      column[static_cast<std::size_t>(word)] |=
-          bits_between(row_lo - 64 * word, row_hi - 64 * word);
+    column[0] |= lower;
+    column[1] |= upper;
   }
 }
 
@@ -82,17 +84,15 @@ double Panorama::coverage(double yaw_rad) const {
   const auto first = static_cast<int>(std::ceil((yaw_rad - half_fov) / kColumnRad - 0.5));
   double covered = 0, whole = 0;
   for (int i = first; (i + 0.5) * kColumnRad < yaw_rad + half_fov; ++i) {
-    const double angle = (i + 0.5) * kColumnRad - yaw_rad, cosine = std::cos(angle);
-    const int n_rows = static_cast<int>(edge * cosine / kMaxSlope * (0.5 * kRows));  // up and down
-    const Column& column = columns_[static_cast<std::size_t>((i % kColumns + kColumns) % kColumns)];
-    int n = 0;
-    for (int word = 0; word < kRows / 64; ++word)
-      n += std::popcount(
-          column[static_cast<std::size_t>(word)] &
-          bits_between(kRows / 2 - n_rows - 64 * word, kRows / 2 + n_rows - 64 * word));
+    const double cosine = std::cos((i + 0.5) * kColumnRad - yaw_rad);
     const double width = 1 / (cosine * cosine);
-    covered += width * n / (2.0 * n_rows);
     whole += width;
+    const Column& column = columns_[static_cast<std::size_t>((i % kColumns + kColumns) % kColumns)];
+    if ((column[0] | column[1]) == 0) continue;
+    const int n_rows = static_cast<int>(edge * cosine / kMaxSlope * (0.5 * kRows));  // up and down
+    const int n = std::popcount(column[0] & bits_between(64 - n_rows, 64)) +
+                  std::popcount(column[1] & bits_between(0, n_rows));
+    covered += width * n / (2.0 * n_rows);
   }
   return covered / whole;
 }

@@ -32,9 +32,9 @@ class Panorama {
   static constexpr int kColumns = 720;
 
  private:
-  static constexpr int kRows = 128;         // of slopes from -kMaxSlope to kMaxSlope
-  static constexpr double kMaxSlope = 0.6;  // just over tan(30 deg), the frame's upper edge
-  using Column = std::array<std::uint64_t, kRows / 64>;
+  static constexpr int kRows = 128;             // of slopes from -kMaxSlope to kMaxSlope
+  static constexpr double kMaxSlope = 0.6;      // just over tan(30 deg), the frame's upper edge
+  using Column = std::array<std::uint64_t, 2>;  // the rows below the horizon, then above
   void cover(double angle_rad, double slope, double half_angle, double half_slope);
 
   glm::dvec3 eye_;

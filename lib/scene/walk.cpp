@@ -23,11 +23,11 @@ constexpr double kLookStep = kSamplesPerMoment * kSampleStep;
 constexpr int kDirections = 72;
 constexpr double kClearance = 7;  // of the eye from footprints; the near plane's corner is at 1.3
 constexpr double kCellSize = 50;  // for which cells are counted [Chen06 5.3]
-constexpr int kNearSamples = 300, kFarSamples = 80;
-constexpr double kFarDistance = 350;  // from which the coarse samples do
+constexpr int kNearSamples = 300, kFarSamples = 60;
+constexpr double kFarDistance = 300;  // from which the coarse samples do
 constexpr double kHalfViewDeg = 25;   // an object this far off the gaze is well in view
 constexpr double kLargeBonus = 0.5;   // of looking at a dragon or bunny in the eye's own cell
-constexpr int kBatch = 12, kBatches = 25;
+constexpr int kBatch = 8, kBatches = 40;
 // Coverage that walks aim at, somewhat above the least that they must have.
 constexpr std::array<double, kParkSizes> kWanted{0.07, 0.11, 0.17};
 constexpr std::array<double, kParkSizes> kLeast{0.06, 0, 0.15};

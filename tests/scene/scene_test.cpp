@@ -1,0 +1,237 @@
+#include "scene/scene.h"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+
+#include "mesh/expect_input_error.h"
+#include "mesh/mutate.h"
+#include "scene/scene_fixture.h"
+
+namespace viewcell {
+namespace {
+
+TEST(Scene, WhatWasWrittenIsReadBackBitForBit) {
+  SmallSceneFolder small;
+  const auto file = small.write();
+  const Scene read = read_scene(file);
+  EXPECT_EQ(format_json(format_scene(read, {{"tool", "test"}})), read_file(file));
+  EXPECT_EQ(read.objects[1].rotation, small.scene().objects[1].rotation);
+  EXPECT_EQ(read.objects[1].translation, small.scene().objects[1].translation);
+  EXPECT_EQ(read.materials[0].base_color, small.scene().materials[0].base_color);
+  EXPECT_EQ(read.materials[1].base_color_texture, "g.png");
+  EXPECT_TRUE(read.materials[1].double_sided);
+  EXPECT_EQ(read.meshes[1].substitutes, "a tower");
+  EXPECT_EQ(read.lighting.toward_light, small.scene().lighting.toward_light);
+  EXPECT_EQ(read.ground_z, -0.25);
+}
+
+TEST(Scene, MeshesComeUprightScaledAndWithNormals) {
+  SmallSceneFolder small;
+  const Scene scene = read_scene(small.write());
+  // The OFF cube [0, 1]^3 has y up and scale 2.5: (x, y, z) -> 2.5 (x, -z, y).
+  const Box box = bounding_box(scene.meshes[1].mesh);
+  EXPECT_EQ(box.lo, glm::dvec3(0, -2.5, 0));
+  EXPECT_EQ(box.hi, glm::dvec3(2.5, 0, 2.5));
+  for (const SceneMesh& mesh : scene.meshes) {
+    ASSERT_EQ(mesh.mesh.normals.size(), mesh.mesh.positions.size());
+    for (std::size_t v = 0; v < mesh.mesh.normals.size(); ++v) {
+      EXPECT_NEAR(glm::length(mesh.mesh.normals[v]), 1, 1e-6);
+      const Box own = bounding_box(mesh.mesh);  // a cube's corners look away from its middle
+      EXPECT_GT(glm::dot(glm::dvec3(mesh.mesh.normals[v]),
+                         glm::dvec3(mesh.mesh.positions[v]) - own.centre()),
+                0);
+    }
+  }
+}
+
+TEST(Scene, TurningUpAxesIsARotation) {
+  const glm::vec3 x(1, 0, 0), y(0, 1, 0), z(0, 0, 1);
+  for (const char* up : {"x", "y", "z"}) {
+    const glm::vec3 a = turn_up_axis(up, x), b = turn_up_axis(up, y), c = turn_up_axis(up, z);
+    EXPECT_EQ(glm::cross(a, b), c) << up;
+    EXPECT_EQ(turn_up_axis(up, up[0] == 'x' ? x : up[0] == 'y' ? y : z), z) << up;
+  }
+}
+
+TEST(Scene, WithoutMeshesOnlyTheJsonIsRead) {
+  SmallSceneFolder small;
+  const auto file = small.write();
+  const Scene whole = read_scene(file);
+  std::filesystem::remove(small.folder().path() / "tall.off");
+  const Scene scene = read_scene(file, {.with_meshes = false});
+  EXPECT_TRUE(scene.meshes[0].mesh.positions.empty());
+  EXPECT_EQ(count_triangles(scene), 36u);
+  EXPECT_EQ(scene.hash, whole.hash);
+  EXPECT_EQ(format_scene(scene, {{"tool", "test"}}), format_scene(whole, {{"tool", "test"}}));
+}
+
+TEST(Scene, AHandWrittenSceneMayLeaveHashAndCountOut) {
+  SmallSceneFolder small;
+  for (Json& mesh : small.json()["meshes"]) mesh.erase("hash"), mesh.erase("triangles");
+  const auto file = small.write();
+  for (const bool with_meshes : {true, false}) {
+    const Scene scene = read_scene(file, {.with_meshes = with_meshes});
+    EXPECT_EQ(scene.meshes[1].n_triangles, 12u);
+    EXPECT_EQ(scene.meshes[1].hash, small.scene().meshes[1].hash);
+    EXPECT_EQ(scene.meshes[1].mesh.positions.empty(), !with_meshes);
+  }
+}
+
+TEST(Scene, HashChangesWithTheSceneAndWithTheMeshes) {
+  SmallSceneFolder small;
+  const std::string hash = read_scene(small.write()).hash;
+  EXPECT_EQ(read_scene(small.write(), {.n_threads = 1}).hash, hash);
+  small.json()["objects"][0]["translation"][2] = 1;
+  const std::string moved = read_scene(small.write()).hash;
+  EXPECT_NE(moved, hash);
+  for (Json& mesh : small.json()["meshes"]) mesh.erase("hash");
+  const std::string before = read_scene(small.write()).hash;
+  small.folder().add("tall.off", "# other bytes\n" + cube_off());
+  EXPECT_NE(read_scene(small.write()).hash, before);
+}
+
+TEST(Scene, WorldBoxIsTightAroundARotatedObject) {
+  SmallSceneFolder small;
+  const Scene scene = read_scene(small.write());
+  const SceneObject& object = scene.objects[1];
+  Box expected;
+  for (const glm::vec3& p : scene.mesh_of(object).mesh.positions) {
+    const glm::dvec4 q = object.matrix_world_from_model() * glm::dvec4(glm::dvec3(p), 1);
+    expected.add(glm::dvec3(q));
+  }
+  const Box box = world_box(scene, object);
+  EXPECT_LT(glm::length(box.lo - expected.lo) + glm::length(box.hi - expected.hi), 1e-12);
+  const glm::dvec3 p(0.3, -7, 11);
+  EXPECT_LT(glm::length(object.model_from_world(object.world_from_model(p)) - p), 1e-12);
+}
+
+TEST(Scene, AnEmptySceneIsAScene) {
+  SmallSceneFolder small;
+  for (const char* key : {"objects", "meshes", "materials"}) small.json()[key] = Json::array();
+  const Scene scene = read_scene(small.write());
+  EXPECT_EQ(count_triangles(scene), 0u);
+}
+
+TEST(Scene, ARoundedQuaternionIsNormalised) {
+  SmallSceneFolder small;
+  small.json()["objects"][0]["rotation"] = {0, 0, 0.7072, 0.7071};
+  const glm::dquat q = read_scene(small.write()).objects[0].rotation;
+  EXPECT_NEAR(glm::length(q), 1, 1e-15);
+}
+
+// What is wrong, and what the one line of error must say.
+struct Spoiling {
+  const char* place;
+  const char* message;
+  std::function<void(Json&)> spoil;
+};
+
+TEST(Scene, BadScenesAreRefusedWithThePlace) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const std::vector<Spoiling> spoilings{
+      {"", "\"format\" is not", [](Json& j) { j["format"] = "viewcell-cells"; }},
+      {"version", "version 2", [](Json& j) { j["version"] = 2; }},
+      {"", "has no \"objects\"", [](Json& j) { j.erase("objects"); }},
+      {"objects", "is not an array", [](Json& j) { j["objects"] = 3; }},
+      {"objects[1].mesh", "2 is out of range", [](Json& j) { j["objects"][1]["mesh"] = 2; }},
+      {"objects[1].mesh", "-1 is out of range", [](Json& j) { j["objects"][1]["mesh"] = -1; }},
+      {"objects[1].mesh", "not a whole number", [](Json& j) { j["objects"][1]["mesh"] = 0.5; }},
+      {"objects[0].material", "7 is out of range",
+       [](Json& j) { j["objects"][0]["material"] = 7; }},
+      {"objects[2].rotation", "unit quaternion",
+       [](Json& j) {
+         j["objects"][2]["rotation"] = {0, 0, 0, 1.01};
+       }},
+      {"objects[2].rotation", "unit quaternion",
+       [](Json& j) {
+         j["objects"][2]["rotation"] = {0, 0, 0, 0};
+       }},
+      {"objects[2].rotation", "3 numbers",
+       [](Json& j) {
+         j["objects"][2]["rotation"] = {0, 0, 1};
+       }},
+      {"objects[2].scale", "is not within", [](Json& j) { j["objects"][2]["scale"] = 0; }},
+      {"objects[2].scale", "is not within", [](Json& j) { j["objects"][2]["scale"] = -1; }},
+      {"objects[0].translation[1]", "is not a number",
+       [&](Json& j) { j["objects"][0]["translation"][1] = nan; }},
+      {"objects[0].translation[1]", "is not within",
+       [](Json& j) { j["objects"][0]["translation"][1] = 1e8; }},
+      {"meshes[0].scale", "is not within", [](Json& j) { j["meshes"][0]["scale"] = 0; }},
+      {"meshes[0].up", "is not x, y or z", [](Json& j) { j["meshes"][0]["up"] = "w"; }},
+      {"meshes[0].file", "leaves the file's folder",
+       [](Json& j) { j["meshes"][0]["file"] = "meshes/../../cube.ply"; }},
+      {"meshes[0].file", "is absolute", [](Json& j) { j["meshes"][0]["file"] = "/etc/passwd"; }},
+      {"meshes[0].file", "is empty", [](Json& j) { j["meshes"][0]["file"] = ""; }},
+      {"meshes[0].triangles", "is not within", [](Json& j) { j["meshes"][0]["triangles"] = 0; }},
+      {"meshes[1].triangles", "13, but 'tall.off' has 12",
+       [](Json& j) { j["meshes"][1]["triangles"] = 13; }},
+      {"tall.off", "mesh file changed since the scene was written",
+       [](Json& j) { j["meshes"][1]["hash"] = "0123456789abcdef"; }},
+      {"gone.ply", "cannot open", [](Json& j) { j["meshes"][1]["file"] = "gone.ply"; }},
+      {"materials[1].base_color_texture", "leaves the file's folder",
+       [](Json& j) { j["materials"][1]["base_color_texture"] = "../g.png"; }},
+      {"materials[0].base_color[2]", "is not within",
+       [](Json& j) { j["materials"][0]["base_color"][2] = 1.5; }},
+      {"materials[0].double_sided", "is not true or false",
+       [](Json& j) { j["materials"][0]["double_sided"] = 1; }},
+      {"area", "lo is not below hi", [](Json& j) { j["area"]["hi"][0] = -10; }},
+      {"light.toward_light", "is not a unit vector",
+       [](Json& j) {
+         j["light"]["toward_light"] = {0, 0, 2};
+       }},
+      {"light.color[0]", "is not within", [](Json& j) { j["light"]["color"][0] = -1; }},
+  };
+  for (const Spoiling& s : spoilings) {
+    SCOPED_TRACE(std::string(s.place) + ": " + s.message);
+    SmallSceneFolder small;
+    s.spoil(small.json());
+    const auto file = small.write();
+    EXPECT_INPUT_ERROR(read_scene(file), s.message);
+    EXPECT_INPUT_ERROR(read_scene(file), s.place);
+  }
+}
+
+TEST(Scene, BadMeshFilesAreRefused) {
+  SmallSceneFolder small;
+  for (Json& mesh : small.json()["meshes"]) mesh.erase("hash");
+  const auto file = small.write();
+  small.folder().add("tall.off", "OFF\n3 0 0\n0 0 0\n1 0 0\n0 1 0\n");
+  EXPECT_INPUT_ERROR(read_scene(file), "tall.off");
+  small.folder().add("tall.off", "OFF\n3 1 0\n0 0 0\n1 0 nan\n0 1 0\n3 0 1 2\n");
+  EXPECT_INPUT_ERROR(read_scene(file), "tall.off");
+  small.folder().add("tall.off", "");
+  EXPECT_INPUT_ERROR(read_scene(file), "tall.off");
+}
+
+TEST(Scene, ALinkOutOfTheFolderIsRefused) {
+  SmallSceneFolder small;
+  TemporaryFolder elsewhere;
+  elsewhere.add("secret.off", cube_off());
+  std::filesystem::create_symlink(elsewhere.path(), small.folder().path() / "link");
+  small.json()["meshes"][1]["file"] = "link/secret.off";
+  EXPECT_INPUT_ERROR(read_scene(small.write()), "leaves the file's folder");
+}
+
+TEST(Scene, DeepAndTruncatedJsonIsRefused) {
+  SmallSceneFolder small;
+  const std::string text = read_file(small.write());
+  const auto& folder = small.folder();
+  EXPECT_INPUT_ERROR(read_scene(folder.add("deep.json", std::string(200000, '['))),
+                     "nested deeper");
+  EXPECT_INPUT_ERROR(read_scene(folder.add("cut.json", text.substr(0, text.size() / 2))),
+                     "not valid JSON");
+  EXPECT_INPUT_ERROR(read_scene(folder.add("empty.json", "")), "empty.json");
+  EXPECT_INPUT_ERROR(read_scene(folder.path() / "missing.json"), "missing.json");
+}
+
+TEST(Scene, DamagedCopiesAreReadOrRefused) {
+  SmallSceneFolder small;
+  const std::string text = read_file(small.write());
+  read_damaged_copies(text, 1500, 42, [&](const std::string& bytes) {
+    read_scene(small.folder().add("damaged.json", bytes), {.n_threads = 1});
+  });
+}
+
+}  // namespace
+}  // namespace viewcell
