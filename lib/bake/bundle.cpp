@@ -8,6 +8,7 @@
 #include "base/file.h"
 #include "base/section_file.h"
 #include "base/srgb.h"
+#include "image/half.h"
 
 namespace viewcell {
 namespace fs = std::filesystem;
@@ -169,6 +170,21 @@ void write_centre_textures(const fs::path& file, const CentreTextures& t, Textur
   writer.write(file);
 }
 
+namespace {
+
+// The curve at every half in [0, 1], by its bits: captures hold halves.
+std::uint8_t srgb8_of_half(float linear) {
+  static const std::vector<std::uint8_t> table = [] {
+    std::vector<std::uint8_t> codes(half_from_float(1.0f) + 1u);
+    for (std::size_t bits = 0; bits < codes.size(); ++bits)
+      codes[bits] = srgb8_from_linear(float_from_half(static_cast<std::uint16_t>(bits)));
+    return codes;
+  }();
+  return table[half_from_float(std::clamp(linear, 0.0f, 1.0f))];
+}
+
+}  // namespace
+
 void append_tile(const CaptureTile& tile, CentreTextures& textures) {
   const auto& depths = tile.inverse_depth.pixels;
   const auto [lo, hi] = std::minmax_element(depths.begin(), depths.end());
@@ -189,8 +205,8 @@ void append_tile(const CaptureTile& tile, CentreTextures& textures) {
   for (std::size_t i = 0; i < depths.size(); ++i) {
     const RgbaFloat& c = tile.color.pixels[i];
     const double code = std::clamp(out.code_scale * depths[i] + out.code_bias, 0.0, 255.0);
-    textures.texels.push_back({srgb8_from_linear(c[0]), srgb8_from_linear(c[1]),
-                               srgb8_from_linear(c[2]), static_cast<std::uint8_t>(code + 0.5)});
+    textures.texels.push_back({srgb8_of_half(c[0]), srgb8_of_half(c[1]), srgb8_of_half(c[2]),
+                               static_cast<std::uint8_t>(code + 0.5)});
   }
 }
 

@@ -2,15 +2,38 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <mutex>
 #include <set>
 
 #include "base/error.h"
 #include "base/file.h"
+#include "mesh/optimize.h"
 
 namespace viewcell {
 namespace fs = std::filesystem;
 namespace {
+
+// Triangles in an order for the vertex cache, vertices in the order of first use.
+void optimize_order(CellMesh& mesh) {
+  const std::size_t n = mesh.source_vertex.size();
+  const std::vector<Triangle> ordered = optimize_index_order(mesh.triangles, n);
+  const std::vector<std::uint32_t> new_ids = make_fetch_order(ordered, n);
+  CellMesh out = mesh;
+  for (std::size_t v = 0; v < n; ++v) {
+    out.source_vertex[new_ids[v]] = mesh.source_vertex[v];
+    out.vertices.positions[new_ids[v]] = mesh.vertices.positions[v];
+    out.vertices.normals[new_ids[v]] = mesh.vertices.normals[v];
+  }
+  std::map<Triangle, std::uint8_t> views;
+  for (std::size_t t = 0; t < ordered.size(); ++t) views[mesh.triangles[t]] = mesh.views[t];
+  for (std::size_t t = 0; t < ordered.size(); ++t) {
+    const Triangle& old = ordered[t];
+    out.views[t] = views.at(old);
+    out.triangles[t] = {new_ids[old[0]], new_ids[old[1]], new_ids[old[2]]};
+  }
+  mesh = std::move(out);
+}
 
 // The meshes of a cell, both kinds, by object; with every outside object exactly once.
 struct CellMeshes {
@@ -31,6 +54,7 @@ CellMeshes read_cell_meshes(const Scene& scene, const CellSet& cells, const Pack
     if (read.kind != kind) throw InputError(file.string(), "header", "is of the other kind");
     for (CellMesh& mesh : read.meshes) {
       ++n_times[index(mesh.object)];
+      optimize_order(mesh);
       out.meshes.push_back(std::move(mesh));
       out.kinds.push_back(kind);
     }

@@ -19,16 +19,14 @@ std::string number(int i) {
   return std::to_string(i);
 }
 
-// The declarations that vertex and fragment shader share, as out or in.
+// The declarations that vertex and fragment shader share, as out or in. Whatever is the same for a
+// whole draw is read from the block by the fragments instead: covered pixels are few, and a
+// software rasteriser sets up every varying for every triangle.
 std::string varyings(const std::string& direction, int n_views) {
-  std::string out = "layout(location = 0) " + direction + " vec3 normal_world;\n" +
-                    "layout(location = 1) flat " + direction + " vec3 color_linear;\n" +
-                    "layout(location = 2) flat " + direction + " vec2 blend;\n";
+  std::string out = "layout(location = 0) " + direction + " vec3 normal_world;\n";
   for (int k = 0; k < n_views; ++k)
-    out += "layout(location = " + number(3 + 3 * k) + ") " + direction + " vec3 stq" + number(k) +
-           ";\nlayout(location = " + number(4 + 3 * k) + ") flat " + direction + " ivec3 region" +
-           number(k) + ";\nlayout(location = " + number(5 + 3 * k) + ") flat " + direction +
-           " vec2 code" + number(k) + ";\n";
+    out +=
+        "layout(location = " + number(1 + k) + ") " + direction + " vec3 stq" + number(k) + ";\n";
   return out;
 }
 
@@ -36,7 +34,7 @@ std::string varyings(const std::string& direction, int n_views) {
 // Returns colour times weight, and the weight.
 const char* kGuardedFetch = R"(
 layout(binding = 0) uniform samplerBuffer texels;
-vec4 guarded_fetch(vec3 stq, ivec3 region, vec2 code) {
+vec4 guarded_fetch(vec3 stq, ivec4 region, vec4 code) {
   if (region.y == 0 || stq.z <= 0.0) return vec4(0);
   float r = 1.0 / stq.z;
   vec2 at = clamp(stq.xy * r - 0.5, vec2(0), vec2(region.yz) - 1.001);
@@ -56,25 +54,25 @@ vec4 guarded_fetch(vec3 stq, ivec3 region, vec2 code) {
 // Below this weight a view says nothing of the fragment.
 const char* kSingleViewMain = R"(
 void main() {
-  vec4 sum = guarded_fetch(stq0, region0, code0);
+  vec4 sum = guarded_fetch(stq0, regions[0], codes[0]);
   if (sum.w > 0.01) color = vec4(sum.rgb / sum.w, 1.0);
-  else color = vec4(srgb_encode(shade(color_linear, normalize(normal_world))), 254.0 / 255.0);
+  else color = vec4(srgb_encode(shade(base_color.xyz, normalize(normal_world))), 254.0 / 255.0);
 }
 )";
 
 const char* kMultiViewMain = R"(
 void main() {
-  vec4 sum = blend.x * guarded_fetch(stq0, region0, code0);
-  if (blend.y > 0.0) sum += blend.y * guarded_fetch(stq1, region1, code1);
-  if (sum.w < 0.01) sum = guarded_fetch(stq2, region2, code2);
+  vec4 sum = weights.x * guarded_fetch(stq0, regions[0], codes[0]);
+  if (weights.y > 0.0) sum += weights.y * guarded_fetch(stq1, regions[1], codes[1]);
+  if (sum.w < 0.01) sum = guarded_fetch(stq2, regions[2], codes[2]);
   if (sum.w > 0.001) color = vec4(sum.rgb / sum.w, 1.0);
-  else color = vec4(srgb_encode(shade(color_linear, normalize(normal_world))), 254.0 / 255.0);
+  else color = vec4(srgb_encode(shade(base_color.xyz, normalize(normal_world))), 254.0 / 255.0);
 }
 )";
 
 const char* kLitMain = R"(
 void main() {
-  color = vec4(srgb_encode(shade(color_linear, normalize(normal_world))), 254.0 / 255.0);
+  color = vec4(srgb_encode(shade(base_color.xyz, normalize(normal_world))), 254.0 / 255.0);
 }
 )";
 
@@ -90,13 +88,11 @@ std::string make_hybrid_vertex_glsl(int n_views) {
                     "  vec4 p = vec4(position, 1);\n"
                     "  gl_Position = clip_from_local * p;\n"
                     "  normal_world = normal;\n"
-                    "  color_linear = base_color.xyz;\n"
-                    "  blend = weights.xy;\n";
+                    "";
   for (int k = 0; k < n_views; ++k) {
     const std::string i = number(k);
     const auto row = [&](int r) { return "dot(rows[" + number(3 * k + r) + "], p)"; };
-    out += "  stq" + i + " = vec3(" + row(0) + ", " + row(1) + ", " + row(2) + ");\n  region" + i +
-           " = regions[" + i + "].xyz;\n  code" + i + " = codes[" + i + "].xy;\n";
+    out += "  stq" + i + " = vec3(" + row(0) + ", " + row(1) + ", " + row(2) + ");\n";
   }
   return out + "}\n";
 }
@@ -107,7 +103,7 @@ std::string make_hybrid_fragment_glsl(int n_views, const Lighting& lighting,
   const std::string name = "DEPTH_TOLERANCE";
   fetch.replace(fetch.find(name), name.size(), std::to_string(depth_tolerance));
   return "#version 450 core\n" + varyings("in", n_views) +
-         "layout(location = 0) out vec4 color;\n" + make_shading_glsl(lighting) +
+         "layout(location = 0) out vec4 color;\n" + kBlock + make_shading_glsl(lighting) +
          (n_views > 0 ? fetch : "") +
          (n_views == 0   ? kLitMain
           : n_views == 1 ? kSingleViewMain
