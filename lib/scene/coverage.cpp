@@ -53,7 +53,7 @@ void Panorama::draw(const SurfaceSamples& samples, double yaw_rad, const glm::dv
   const glm::dvec3 offset = translation - eye_;
   for (const glm::vec3& p : samples.points) {
     const double x = c * p.x - s * p.y + offset.x, y = s * p.x + c * p.y + offset.y;
-    const double distance = std::max(std::hypot(x, y), 1.0);
+    const double distance = std::max(std::sqrt(x * x + y * y), 1.0);
     const double half = samples.radius / distance;
     cover(std::atan2(y, x), (p.z + offset.z) / distance, half, half);
   }

@@ -50,6 +50,7 @@ Park make_park(std::vector<SceneMesh> meshes, const ParkPreset& preset, std::uin
 
 void write_park(Park& park, const fs::path& folder, const Json& provenance,
                 const Progress& progress) {
+  make_folder(folder);
   make_folder(folder / "meshes");
   std::error_code none;  // an old scene.json would name meshes that are about to change
   fs::remove(folder / "scene.json", none);
