@@ -48,7 +48,9 @@ Refusal CollapseMesh::check(std::uint32_t u, std::uint32_t v, float min_cosine) 
 }
 
 // The link condition [Dey, Edelsbrunner, Guha, Nekhayev 1999]: a vertex joined to both u and v must
-// be the third corner of a triangle at uv, and no triangle of u may come to lie on one of v.
+// be the third corner of a triangle at uv, and no triangle of u may come to lie on one of v. (The
+// three neighbours of a vertex with three triangles are all joined; it may go unless they have a
+// triangle of their own, as in a tetrahedron.)
 bool CollapseMesh::keeps_topology(std::uint32_t u, std::uint32_t v, bool& is_boundary_edge) {
   stamp_ += 4;
   const std::uint32_t at_u = stamp_, opposite = stamp_ + 1;
@@ -64,13 +66,18 @@ bool CollapseMesh::keeps_topology(std::uint32_t u, std::uint32_t v, bool& is_bou
     n_shared += (a == u) + (b == u);
     for (const std::uint32_t w : {a, b})
       if (w != u && mark_[w] == at_u) legal = false;  // joined to both, but no triangle u v w
-  });
-  if (!legal || n_shared == 0) return false;
-  for_each_triangle(u, [&](std::uint32_t a, std::uint32_t b) {
-    if (a != v && b != v && mark_[a] == opposite && mark_[b] == opposite) legal = false;
+    if (mark_[a] == opposite && mark_[b] == opposite && has_triangle(u, a, b)) legal = false;
   });
   is_boundary_edge = n_shared == 1;
-  return legal;
+  return legal && n_shared > 0;
+}
+
+bool CollapseMesh::has_triangle(std::uint32_t u, std::uint32_t a, std::uint32_t b) const {
+  bool found = false;
+  for_each_triangle(u, [&](std::uint32_t c, std::uint32_t d) {
+    if ((c == a && d == b) || (c == b && d == a)) found = true;
+  });
+  return found;
 }
 
 // Whether some edge of u has exactly one triangle.

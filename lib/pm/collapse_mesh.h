@@ -43,7 +43,7 @@ class CollapseMesh {
 
   /// Whether the half-edge collapse u -> v keeps the surface's topology (the link condition),
   /// moves a boundary vertex along its boundary only, and turns no triangle's normal by more than
-  /// acos(min_cosine) nor makes one of no area.
+  /// acos(min_cosine) nor makes one of no area. A triangle on its own may vanish.
   /// Not thread-safe (scratch marks).
   Refusal check(std::uint32_t u, std::uint32_t v, float min_cosine);
 
@@ -57,6 +57,7 @@ class CollapseMesh {
   static constexpr std::uint32_t kEnd = 0xffffffffu;
   void unlink(std::uint32_t v, std::uint32_t corner);
   bool keeps_topology(std::uint32_t u, std::uint32_t v, bool& is_boundary_edge);
+  bool has_triangle(std::uint32_t u, std::uint32_t a, std::uint32_t b) const;
   bool is_on_boundary(std::uint32_t u);
   bool keeps_normals(std::uint32_t u, std::uint32_t v, float min_cosine) const;
 
