@@ -1,0 +1,121 @@
+#!/usr/bin/env bash
+# Types the whole chain on a scene of two balls: it works, is resumed, may be cut in slices, and
+# gives the same bytes for any number of threads. First argument: the folder of binaries.
+set -euo pipefail
+here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+bin=$1
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+log=$work/log
+mkdir "$log" "$work/run"
+cd "$work/run"
+. "$here/lib.sh"
+
+bake bundle
+# reported KEY: its number in the report that the last command printed.
+reported() { sed -n "s/^ *\"$1\": \([-0-9.e]*\),*\$/\1/p" "$log/out" | head -1; }
+expect_reported() {  # KEY VALUE
+  [ "$(reported "$1")" = "$2" ] || fail "$1 is $(reported "$1"), not $2"
+}
+same() { diff -r "$1" "$2" >"$log/diff" || { cat "$log/diff" >&2; fail "$1 and $2 differ"; }; }
+
+# Words: help with an example, the version, nothing on stderr with -q, JSON alone on stdout.
+for tool in parkgen hexcells depthcap svmesh mvmesh cellpack psnr play; do
+  expect 0 "$bin/$tool" --help
+  grep -q "Example:" "$log/out" || fail "$tool --help has no example"
+  expect 0 "$bin/$tool" --version
+  grep -q "^$tool (viewcell) " "$log/out" || fail "$tool --version"
+done
+expect 0 "$bin/hexcells" park/scene.json --size 50 --eye-height 6:10 -o - -q
+[ ! -s "$log/err" ] || fail "words in spite of -q"
+cmp -s "$log/out" cells.json || fail "-o - is not what -o cells.json is"
+mkfifo pipe
+cat pipe >piped &
+expect 0 "$bin/hexcells" park/scene.json --size 50 --eye-height 6:10 -o pipe
+wait
+cmp -s piped cells.json && [ -p pipe ] || fail "a pipe as -o"
+expect 0 "$bin/hexcells" park/scene.json --size 50 -o x.json --svg map.svg --path park/path.json --json -
+expect_reported cells 12
+grep -q "<svg" map.svg || fail "no map"
+
+# A second run keeps what is there; a damaged or missing file is made again.
+snapshot >"$log/before"
+expect 0 "$bin/depthcap" park/scene.json cells.json --resolution 128 -o captures --json -
+expect_reported kept "$(reported centres)"
+for tool in sv:svmesh mv:mvmesh; do
+  expect 0 "$bin/${tool#*:}" park/scene.json cells.json captures -o ${tool%:*} --json -
+  expect_reported kept 12
+done
+snapshot | grep -v captures.json >"$log/after"
+grep -v captures.json "$log/before" | cmp -s - "$log/after" || fail "a second run writes again"
+cp -r captures captures_2
+head -c 5000 captures/centre-00007.exr >captures_2/centre-00007.exr
+rm captures_2/centre-00008.exr
+expect 0 "$bin/depthcap" park/scene.json cells.json --resolution 128 -o captures_2 --json -
+expect_reported kept 26
+same captures captures_2
+cp -r sv sv_2
+head -c 700 sv/cell-00003.ply >sv_2/cell-00003.ply
+: >sv_2/cell-00004.ply
+expect 0 "$bin/svmesh" park/scene.json cells.json captures -o sv_2 --json -
+expect_reported kept 10
+same sv sv_2
+# Other options make other meshes, in place of the ones that are there; and back.
+expect 0 "$bin/svmesh" park/scene.json cells.json captures --tl 2 -o sv_2 --json -
+expect_reported kept 0
+cmp -s sv/cell-00000.ply sv_2/cell-00000.ply && fail "--tl changes nothing"
+expect 0 "$bin/svmesh" park/scene.json cells.json captures -o sv_2
+same sv sv_2
+
+# Any number of threads, and slices on two machines.
+for j in 1 2 5; do
+  rm -rf j
+  expect 0 "$bin/depthcap" park/scene.json cells.json --resolution 128 -o j/captures -j $j
+  expect 0 "$bin/svmesh" park/scene.json cells.json j/captures -o j/sv -j $j
+  expect 0 "$bin/mvmesh" park/scene.json cells.json j/captures -o j/mv -j $j
+  expect 0 "$bin/cellpack" park/scene.json cells.json j/captures j/sv j/mv -o j/bundle -j $j
+  for folder in captures sv mv bundle; do same $folder j/$folder; done
+done
+for i in 1 2; do
+  expect 0 "$bin/depthcap" park/scene.json cells.json --resolution 128 --slice $i/2 -o half/captures
+  expect 0 "$bin/svmesh" park/scene.json cells.json captures --slice $i/2 -o half/sv --json -
+  expect_reported cells 6
+  expect 0 "$bin/mvmesh" park/scene.json cells.json captures --slice $i/2 -o half/mv
+done
+for folder in captures sv mv; do same $folder half/$folder; done
+
+# Lists of cells.
+files() { (cd "$1" && ls); }
+expect 0 "$bin/svmesh" park/scene.json cells.json captures --cells 0,2,5-7,6 -o few
+[ "$(files few | wc -l)" -eq 5 ] && cmp -s few/cell-00007.ply sv/cell-00007.ply || fail "--cells"
+printf '0\n2 5-6\n7,\n' >list
+expect 0 "$bin/svmesh" park/scene.json cells.json captures --cells @list -o listed
+same few listed
+expect 0 "$bin/svmesh" park/scene.json cells.json captures --cells path:park/path.json -o walked
+[ "$(files walked)" = cell-00001.ply ] || fail "the path's cells: $(files walked)"
+
+# Killed at any moment, and run again.
+for ms in 20 60 120; do
+  rm -rf killed
+  "$bin/depthcap" park/scene.json cells.json --resolution 128 -o killed -q -j 2 &
+  sleep 0.$(printf %03d $ms)
+  kill -9 $! 2>/dev/null || true
+  wait $! 2>/dev/null || true
+  expect 0 "$bin/depthcap" park/scene.json cells.json --resolution 128 -o killed
+  rm -f killed/.tmp-*
+  same captures killed
+done
+
+# The bundle needs nothing beside it.
+mkdir away
+mv bundle away/
+cp park/path.json away/
+cd away
+expect 0 "$bin/play" bundle --path path.json --frames 3 --size 64x64 --stats stats.json --save frames
+for key in frames width_px height_px renderer gl_threads modes triangles_mean frame_ms psnr_db \
+  psnr_covered_db texture_bytes_mean draws_mean missing_px_mean yardstick coverage_mean speedup \
+  hybrid_over_frustum per_frame; do
+  grep -q "\"$key\": " stats.json || fail "no $key in stats.json"
+done
+find frames -name '*.png' | grep -q . || fail "no frames saved"
+echo "chain.sh: all well"
