@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/error.h"
 
@@ -10,6 +11,9 @@ namespace {
 
 const double kSqrt3 = std::sqrt(3.0);
 constexpr int kMostCellsAcross = 2000;
+// Points this near to the border of two cells are on it, in cell sizes: what rounding leaves of
+// coordinates a million sizes wide, and nothing that can be seen.
+constexpr double kBorder = 1e-9;
 
 bool is_odd(int column) {
   return (column & 1) != 0;
@@ -20,13 +24,13 @@ bool is_odd(int column) {
 HexGrid make_grid(const Area& area, double size) {
   VIEWCELL_CHECK(size > 0, size);
   // A column covers every y of the area up to size / 2 on each side of its centre, a row of an even
-  // column sqrt(3)/2 size.
+  // column sqrt(3)/2 size. A far edge that falls on the last border takes one more.
   const auto count = [](double length, double covered, double step) {
-    const double n = std::ceil((length - covered) / step - 1e-12);
-    if (!(n < kMostCellsAcross))
+    const double n = std::floor((length - covered) / step + 2 * kBorder);
+    if (!(n + 1 < kMostCellsAcross))
       throw UsageError("cells of that size are too many: more than " +
                        std::to_string(kMostCellsAcross) + " across the area");
-    return 1 + std::max(0, static_cast<int>(n));
+    return 1 + std::max(0, static_cast<int>(n) + 1);
   };
   HexGrid grid;
   grid.origin = area.lo;
@@ -49,17 +53,18 @@ ConvexPolygon corners_of(const HexGrid& grid, HexPlace place) {
 }
 
 // A hexagon is its centre's Voronoi cell, so the nearest centre decides; it is among the columns
-// around the point's.
+// around the point's. The area's low edge is the lower border of row 0 in odd columns: there the
+// higher row must win.
 HexPlace place_at(const HexGrid& grid, const glm::dvec2& point) {
   const glm::dvec2 p = (point - grid.origin) / grid.size;
   const int column = static_cast<int>(std::floor(p.x / 1.5));
   HexPlace best;
-  double least = 1e300;
+  double least = std::numeric_limits<double>::infinity();
   for (int c = column; c <= column + 1; ++c) {
     const int row = static_cast<int>(std::floor(p.y / kSqrt3 - (is_odd(c) ? 0.5 : 0.0)));
-    for (int r = row; r <= row + 1; ++r) {
-      const glm::dvec2 d = point - centre_of(grid, {c, r});
-      if (const double squared = glm::dot(d, d); squared < least) {
+    for (int r = row + 1; r >= row; --r) {
+      const glm::dvec2 d = (point - centre_of(grid, {c, r})) / grid.size;
+      if (const double squared = glm::dot(d, d); squared < least - kBorder) {
         least = squared;
         best = {c, r};
       }

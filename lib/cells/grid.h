@@ -38,8 +38,8 @@ struct HexPlace {
 glm::dvec2 centre_of(const HexGrid& grid, HexPlace place);
 /// Six corners, counter-clockwise from +x.
 ConvexPolygon corners_of(const HexGrid& grid, HexPlace place);
-/// The one hexagon that the point belongs to: the nearest centre; on a tie the lowest column, then
-/// row.
+/// The one hexagon that the point belongs to: the nearest centre; on a border the lowest column,
+/// then the highest row, so that an area's edges belong to cells of its grid.
 HexPlace place_at(const HexGrid& grid, const glm::dvec2& point);
 /// Across side face k, whose outward normal is at 30 + 60 k degrees, k = 0..5.
 HexPlace neighbour(HexPlace place, int face);

@@ -18,6 +18,14 @@ std::string points(const std::vector<glm::dvec2>& polygon) {
   return out;
 }
 
+// Text from a file as XML text.
+std::string escape(const std::string& text) {
+  std::string out;
+  for (const char c : text)
+    out += c == '<' ? "&lt;" : c == '>' ? "&gt;" : c == '&' ? "&amp;" : std::string(1, c);
+  return out;
+}
+
 // From pale to deep blue; t in [0, 1].
 std::string color_of(double t) {
   const auto mix = [&](int a, int b) { return static_cast<int>(a + (b - a) * t); };
@@ -47,7 +55,7 @@ void draw_objects(const Scene& scene, std::string& svg) {
     const SceneObject& object = scene.objects[o];
     svg += std::string("<polygon points='") + points(footprints[o]) + "' fill='" +
            kColors[index(object.mesh) % std::size(kColors)] + "'><title>object " +
-           std::to_string(o) + ": " + scene.mesh_of(object).name + "</title></polygon>\n";
+           std::to_string(o) + ": " + escape(scene.mesh_of(object).name) + "</title></polygon>\n";
   }
   svg += "</g>\n";
 }
@@ -83,7 +91,7 @@ std::string draw_map(const Scene& scene, const CellSet& cells, const CameraPath*
   svg += format("<text x='%.2f' y='%.2f' font-family='sans-serif' font-size='36'>", lo.x + 20,
                 -lo.y - 20) +
          std::to_string(cells.grid.columns) + " x " + std::to_string(cells.grid.rows) +
-         " cells of size " + format("%g", s) + ", coloured by " + options.figure +
+         " cells of size " + format("%g", s) + ", coloured by " + escape(options.figure) +
          "</text>\n</svg>\n";
   return svg;
 }

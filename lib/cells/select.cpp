@@ -10,11 +10,16 @@
 namespace viewcell {
 namespace {
 
-int parse_int(const std::string& text, const std::string& all) {
-  int value = 0;
+// A whole number of digits alone, or -1.
+int parse_count(const std::string& text) {
+  int value = -1;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size() || value < 0)
-    throw UsageError("--cells: '" + text + "' in '" + all + "' is not a cell");
+  return error == std::errc() && end == text.data() + text.size() ? value : -1;
+}
+
+int parse_int(const std::string& text, const std::string& all) {
+  const int value = parse_count(text);
+  if (value < 0) throw UsageError("--cells: '" + text + "' in '" + all + "' is not a cell");
   return value;
 }
 
@@ -59,10 +64,10 @@ void add_path(const CellSet& cells, const std::string& file, std::set<int>& out)
 }
 
 void keep_slice(const std::string& slice, std::vector<CellId>& list) {
-  int i = 0, n = 0;
-  char rest = 0;
-  if (std::sscanf(slice.c_str(), "%d/%d%c", &i, &n, &rest) != 2 || i < 1 || n < 1 || i > n)
-    throw UsageError("--slice: '" + slice + "' is not I/N with 1 <= I <= N");
+  const std::size_t stroke = std::min(slice.find('/'), slice.size());
+  const int i = parse_count(slice.substr(0, stroke));
+  const int n = stroke < slice.size() ? parse_count(slice.substr(stroke + 1)) : -1;
+  if (i < 1 || n < i) throw UsageError("--slice: '" + slice + "' is not I/N with 1 <= I <= N");
   std::vector<CellId> kept;
   for (std::size_t k = static_cast<std::size_t>(i) - 1; k < list.size();
        k += static_cast<std::size_t>(n))

@@ -5,6 +5,29 @@
 #include <limits>
 
 namespace viewcell {
+namespace {
+
+double distance_to_segment(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3& b) {
+  const glm::dvec3 ab = b - a;
+  const double squared = glm::dot(ab, ab);
+  const double t = squared > 0 ? std::clamp(glm::dot(p - a, ab) / squared, 0.0, 1.0) : 0;
+  return glm::length(p - (a + t * ab));
+}
+
+double distance_to_triangle(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3& b,
+                            const glm::dvec3& c) {
+  const glm::dvec3 n = glm::cross(b - a, c - a);
+  const auto is_above = [&](const glm::dvec3& from, const glm::dvec3& to) {
+    return glm::dot(glm::cross(to - from, p - from), n) >= 0;
+  };
+  const double area = glm::length(n);
+  if (area > 0 && is_above(a, b) && is_above(b, c) && is_above(c, a))
+    return std::abs(glm::dot(p - a, n)) / area;
+  return std::min(
+      {distance_to_segment(p, a, b), distance_to_segment(p, b, c), distance_to_segment(p, c, a)});
+}
+
+}  // namespace
 
 double self_occluding_error_px(double c, double d, double l, double image_res) {
   if (!(d > 0)) return std::numeric_limits<double>::infinity();
@@ -16,24 +39,32 @@ ObjectDepth measure_depth(const glm::dvec3& eye, std::span<const glm::vec3> posi
                           const std::vector<bool>& is_back_facing) {
   Box box;
   double nearest = std::numeric_limits<double>::infinity();
+  const auto at = [&](std::uint32_t v) { return glm::dvec3(positions[v]); };
   const auto for_each_front = [&](auto&& visit) {
     for (std::size_t t = 0; t < triangles.size(); ++t)
-      if (!is_back_facing[t])
-        for (const std::uint32_t v : triangles[t]) visit(glm::dvec3(positions[v]));
+      if (!is_back_facing[t]) visit(at(triangles[t][0]), at(triangles[t][1]), at(triangles[t][2]));
   };
-  for_each_front([&](const glm::dvec3& p) {
-    box.add(p);
-    nearest = std::min(nearest, glm::length(p - eye));
+  for_each_front([&](const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+    box.add(a), box.add(b), box.add(c);
+    nearest = std::min({nearest, glm::length(a - eye), glm::length(b - eye), glm::length(c - eye)});
+  });
+  // The nearest point of a large triangle may be far from its corners; none of a small one is.
+  for_each_front([&](const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+    const double reach = std::max(glm::length(b - a), glm::length(c - a));
+    if (glm::length(a - eye) - reach < nearest)
+      nearest = std::min(nearest, distance_to_triangle(eye, a, b, c));
   });
   if (!std::isfinite(nearest)) return {};
   const glm::dvec3 toward = box.centre() - eye;
   const double length = glm::length(toward);
   if (!(length > 0)) return {nearest, glm::length(box.size())};
   double lo = std::numeric_limits<double>::infinity(), hi = -lo;
-  for_each_front([&](const glm::dvec3& p) {
-    const double along = glm::dot(p - eye, toward) / length;
-    lo = std::min(lo, along);
-    hi = std::max(hi, along);
+  for_each_front([&](const auto&... corners) {
+    for (const glm::dvec3& p : {corners...}) {
+      const double along = glm::dot(p - eye, toward) / length;
+      lo = std::min(lo, along);
+      hi = std::max(hi, along);
+    }
   });
   return {nearest, hi - lo};
 }

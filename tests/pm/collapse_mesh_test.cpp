@@ -95,7 +95,7 @@ TEST(CollapseMesh, OctahedronCollapsesOnceToABipyramid) {
 }
 
 //        2
-//       / \
+//       / \         .
 //      0---1        3 is joined to 0 and to 1, but there is no face 0 1 3: collapsing would pinch
 //     / \ / \       the hole between them shut
 //    4---3---5
