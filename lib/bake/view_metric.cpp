@@ -9,6 +9,9 @@ namespace {
 
 // An eye nearer than this to a surface would see nothing else: it does not drive the average.
 constexpr double kLeastDistance = 5;
+// Cosine between normal and line of sight over which a surface comes from edge-on to facing.
+constexpr double kEdgeOnWidth = 0.3;
+constexpr float kRimWeight = 0.39f;  // the paper's for silhouettes is 0.4 or 0.5
 
 }  // namespace
 
@@ -18,8 +21,8 @@ ViewMetric::ViewMetric(const ViewVertices& vertices, std::span<const Triangle> t
       options_(options),
       origin_(vertices.positions.empty() ? glm::dvec3(0) : glm::dvec3(vertices.positions[0])),
       quadrics_(vertices.positions.size()) {
-  add_quadrics(triangles);
   add_views();
+  add_quadrics(triangles);
 }
 
 void ViewMetric::add_quadrics(std::span<const Triangle> triangles) {
@@ -28,7 +31,13 @@ void ViewMetric::add_quadrics(std::span<const Triangle> triangles) {
     const glm::dvec3 normal = glm::cross(at(t[1]) - at(t[0]), at(t[2]) - at(t[0]));
     const double length = glm::length(normal);
     if (!(length > 0)) continue;
-    for (const std::uint32_t v : t) quadrics_[v].add_plane(normal / length, at(v), length / 6);
+    for (const std::uint32_t v : t) {
+      // weight: area * show; value: distance^2 * area * show^2
+      Quadric plane;
+      plane.add_plane(normal / length, at(v), length / 6 * show_[v] * show_[v]);
+      plane.weight = length / 6 * show_[v];
+      quadrics_[v].add(plane);
+    }
   }
 }
 
@@ -49,9 +58,9 @@ void ViewMetric::add_views() {
     spread_.push_back(static_cast<float>(spread));
     const double facing = std::abs(glm::dot(direction, glm::dvec3(vertices_.normals[v])));
     const double parallax = std::min(1.0, 0.5 * options_.radius * inverse);
-    const double by_weight = vertices_.weights[v] / 0.5;
-    show_.push_back(
-        static_cast<float>(facing < spread ? 1.0 : std::min(1.0, std::max(by_weight, parallax))));
+    const double edge_on = std::clamp(1 - (facing - spread) / kEdgeOnWidth, 0.0, 1.0);
+    const double rim = vertices_.weights[v] >= kRimWeight ? 1.0 : 0.0;
+    show_.push_back(static_cast<float>(std::max({edge_on * edge_on, parallax, rim})));
   }
 }
 
@@ -70,7 +79,7 @@ double ViewMetric::drift_px(std::uint32_t u, std::uint32_t v) const {
   const double weight = quadrics_[u].weight + quadrics_[v].weight;
   const double value = quadrics_[u].value(p) + quadrics_[v].value(p);
   if (!(weight > 0)) return 0;
-  return std::sqrt(std::max(value, 0.0) / weight) * px_per_unit_[v] * std::max(show_[u], show_[v]);
+  return std::sqrt(std::max(value, 0.0) / weight) * px_per_unit_[v];
 }
 
 float ViewMetric::cost(std::uint32_t u, std::uint32_t v) const {

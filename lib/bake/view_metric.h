@@ -33,11 +33,12 @@ struct ViewMetricOptions {
 /// weight collapses. A vertex keeps its own normal, weight and views when others collapse into it.
 ///
 /// Differs (trap 14, no term bounds deviation): cost(u, v) = max(paper, T_l drift / max_drift), so
-/// that a collapse ends at T_l by either. drift is the root mean square distance in px of v to the
-/// planes of the triangles that it comes to stand for, times how much a displacement there shows:
-///   1 where the surface turns edge-on to some point of the cell, or the paper's weight is a
-///   silhouette's; elsewhere w / 0.5, and not less than the parallax that a displacement causes,
-///   half the cell's size over the distance.
+/// that a collapse ends at T_l by either. drift is a root mean square, in px, of v's distances d to
+/// the planes of the triangles that it comes to stand for: sqrt(sum A s^2 d^2 / sum A s), with A
+/// their areas and s how much a displacement there shows:
+///   1 where the surface is seen edge-on from some point of the cell, or is a silhouette by the
+///   paper's weights, falling to the parallax that a displacement of a facing surface causes, half
+///   the cell's size over the distance: the texture is projected, so only its depth is wrong.
 /// Pixels, in l and drift, are root mean squares over points of the cell (`samples`): by the
 /// nearest point alone, objects next to a cell would hardly be simplified at all.
 class ViewMetric {
@@ -47,10 +48,7 @@ class ViewMetric {
 
   float cost(std::uint32_t u, std::uint32_t v) const;
   bool allows(const CollapseMesh& mesh, std::uint32_t u, std::uint32_t v) const;
-  void collapsed(std::uint32_t u, std::uint32_t v) {
-    quadrics_[v].add(quadrics_[u]);
-    show_[v] = std::max(show_[v], show_[u]);
-  }
+  void collapsed(std::uint32_t u, std::uint32_t v) { quadrics_[v].add(quadrics_[u]); }
   /// How far v should move along its normal to lie best among the planes that it stands for, world
   /// units, at most max_drift_px. Half-edge collapses keep vertices of a convex surface, so its
   /// chords all lie inside: this takes the bias out of silhouettes.

@@ -9,6 +9,9 @@ namespace {
 // An angle of nothing at all would take all the weight; a thousandth of a degree does.
 constexpr double kLeastAngle_rad = 2e-5;
 
+// Of the two views' weights about a half.
+constexpr double kContrast = 1.5;
+
 double angle_between(const glm::dvec3& a, const glm::dvec3& b) {
   return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
 }
@@ -76,12 +79,13 @@ ViewChoice choose_views(const glm::dvec3& eye, const glm::dvec3& middle,
   std::sort(order.begin(), order.end());
   const std::size_t n = order.size();
   ViewChoice choice;
-  for (std::size_t i = 0; i < std::min<std::size_t>(n, 3); ++i) choice.view[i] = order[i].second;
+  for (std::size_t i = 0; i < std::min<std::size_t>(n, 2); ++i) choice.view[i] = order[i].second;
   if (n < 2) return choice;
   const double third = n > 2 ? 1 / order[2].first : 0;
   const double a = 1 / order[0].first - third, b = 1 / order[1].first - third;
   const double sum = a + b;
-  choice.weight[0] = sum > 0 ? static_cast<float>(a / sum) : 0.5f;
+  const double share = sum > 0 ? a / sum : 0.5;
+  choice.weight[0] = static_cast<float>(std::min(1.0, 0.5 + kContrast * (share - 0.5)));
   choice.weight[1] = 1 - choice.weight[0];
   return choice;
 }
@@ -118,7 +122,7 @@ HybridPlan plan_hybrid(const PlanScene& scene, const CellSet& cells, const Ready
   const auto ids = views_of(cells.grid, cell.cell);
   for (std::size_t k = 0; k < ids.size(); ++k) centres[k] = eye_of(cells, ids[k]);
 
-  std::vector<Ordered> multi, single;
+  std::vector<Ordered> draws;
   for (std::size_t slot = 0; slot < cell.objects.size(); ++slot) {
     const ReadyObject& o = cell.objects[slot];
     if (o.n_indices == 0 || (o.windows & windows) == 0) continue;
@@ -130,11 +134,10 @@ HybridPlan plan_hybrid(const PlanScene& scene, const CellSet& cells, const Ready
     const unsigned available = views[slot] & (is_single ? 1u : 0x7fu);
     const HybridDraw draw{static_cast<std::uint16_t>(slot),
                           choose_views(camera.eye, middle, centres, available)};
-    (is_single ? single : multi).push_back({glm::distance(camera.eye, middle), draw});
+    draws.push_back({glm::distance(camera.eye, middle), draw});
     plan.n_triangles += o.n_indices / 3;
   }
-  sort_front_to_back(multi, plan.multi_view);
-  sort_front_to_back(single, plan.single_view);
+  sort_front_to_back(draws, plan.outside);
   plan_inside(scene, cells.inside[index(cell.cell)], frustum, camera, plan);
   return plan;
 }

@@ -12,15 +12,16 @@ namespace viewcell {
 /// The views that an object of a cell may be textured from: bit k, of the cell's seven centres.
 using ViewsAvailable = std::vector<std::uint8_t>;  // by slot
 
-/// The two best views of an object and the next, which takes over where both are blind.
+/// The two best views of an object.
 struct ViewChoice {
-  std::array<int, 3> view{-1, -1, -1};  ///< 0..6; -1: none
-  std::array<float, 2> weight{1, 0};    ///< of the first two; they sum to 1
+  std::array<int, 2> view{-1, -1};    ///< 0..6; -1: none
+  std::array<float, 2> weight{1, 0};  ///< they sum to 1; the second may be 0
 };
 
-/// By the angles at the object's middle between the eye and each available view [Chen06 5.2.2]. A
-/// view's weight vanishes as its angle grows to the third's, so that nothing pops when the choice
-/// changes (trap 20).
+/// By the angles at the object's middle between the eye and each available view [Chen06 5.2.2]:
+/// weight 1 / angle - 1 / third angle, so that a view's weight vanishes before the choice changes
+/// and nothing pops (trap 20). Differs: the weights' contrast is raised by half, so that the second
+/// view fades out altogether where the first is far better, and most draws fetch from one view.
 ViewChoice choose_views(const glm::dvec3& eye, const glm::dvec3& middle,
                         const std::array<glm::dvec3, kViews>& centres, unsigned available);
 
@@ -30,10 +31,9 @@ struct HybridDraw {
 };
 
 struct HybridPlan {
-  std::vector<ObjectId> inside;         ///< drawn as they are, front to back
-  std::vector<HybridDraw> multi_view;   ///< front to back
-  std::vector<HybridDraw> single_view;  ///< front to back
-  std::size_t n_triangles = 0;          ///< of the outside objects
+  std::vector<ObjectId> inside;     ///< drawn as they are, front to back
+  std::vector<HybridDraw> outside;  ///< front to back
+  std::size_t n_triangles = 0;      ///< of the outside objects
 };
 
 /// The side faces that a camera inside the cell may look through: bit k (window culling [Chen06

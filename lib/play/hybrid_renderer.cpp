@@ -12,9 +12,9 @@ namespace viewcell {
 struct HybridRenderer::DrawBlock {
   glm::vec4 base_color{0};
   glm::vec4 weights{0};
-  glm::vec4 rows[9] = {};
-  glm::ivec4 regions[3] = {};
-  glm::vec4 codes[3] = {};
+  glm::vec4 rows[6] = {};
+  glm::ivec4 regions[2] = {};
+  glm::vec4 codes[2] = {};
 };
 
 namespace {
@@ -30,8 +30,8 @@ std::size_t uniform_alignment(const Gl& gl) {
 
 GlProgram make_program(const Gl& gl, const char* name, int n_views, const Lighting& lighting,
                        const HybridOptions& options) {
-  return GlProgram(gl, name, make_hybrid_vertex_glsl(n_views),
-                   make_hybrid_fragment_glsl(n_views, lighting, options.depth_tolerance));
+  return GlProgram(gl, name, make_hybrid_vertex_glsl(n_views, lighting),
+                   make_hybrid_fragment_glsl(n_views, options.depth_tolerance));
 }
 
 }  // namespace
@@ -39,20 +39,23 @@ GlProgram make_program(const Gl& gl, const char* name, int n_views, const Lighti
 HybridRenderer::HybridRenderer(const Gl& gl, const Scene& scene, const HybridOptions& options)
     : gl_(gl),
       scene_(scene),
-      multi_view_(make_program(gl, "mvmesh", 3, scene.lighting, options)),
-      single_view_(make_program(gl, "svmesh", 1, scene.lighting, options)),
+      two_views_(make_program(gl, "two views", 2, scene.lighting, options)),
+      one_view_(make_program(gl, "one view", 1, scene.lighting, options)),
       lit_(make_program(gl, "lit mesh", 0, scene.lighting, options)),
-      edges_(gl, "edges", make_hybrid_vertex_glsl(0), make_edge_fragment_glsl()) {
+      edges_(gl, "edges", make_hybrid_vertex_glsl(0, scene.lighting), make_edge_fragment_glsl()) {
   const std::size_t alignment = uniform_alignment(gl);
   block_stride_ = (sizeof(DrawBlock) + alignment - 1) / alignment * alignment;
 }
 
 void HybridRenderer::upload_blocks(const ResidentCell& cell, const HybridPlan& plan,
                                    HybridStyle style) {
-  staged_.assign((plan.multi_view.size() + plan.single_view.size()) * block_stride_, 0);
+  staged_.assign(plan.outside.size() * block_stride_, 0);
   char* to = staged_.data();
-  const auto stage = [&](const HybridDraw& draw, const glm::vec3& kind_color) {
-    const SceneObject& object = scene_.objects[index(cell.ready->objects[draw.slot].object)];
+  const auto stage = [&](const HybridDraw& draw) {
+    const ReadyObject& ready = cell.ready->objects[draw.slot];
+    const SceneObject& object = scene_.objects[index(ready.object)];
+    const glm::vec3 kind_color =
+        ready.kind == Representation::single_view ? kSingleViewColor : kMultiViewColor;
     DrawBlock block;
     block.base_color =
         glm::vec4(style == HybridStyle::textured
@@ -60,7 +63,7 @@ void HybridRenderer::upload_blocks(const ResidentCell& cell, const HybridPlan& p
                       : kind_color,
                   1);
     block.weights = {draw.views.weight[0], draw.views.weight[1], 0, 0};
-    for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t i = 0; i < 2; ++i) {
       if (draw.views.view[i] < 0) continue;
       const ViewProjection& p = cell.projections[std::size_t{draw.slot} * kViews +
                                                  static_cast<std::size_t>(draw.views.view[i])];
@@ -71,23 +74,19 @@ void HybridRenderer::upload_blocks(const ResidentCell& cell, const HybridPlan& p
     std::memcpy(to, &block, sizeof block);
     to += block_stride_;
   };
-  for (const HybridDraw& draw : plan.multi_view) stage(draw, kMultiViewColor);
-  for (const HybridDraw& draw : plan.single_view) stage(draw, kSingleViewColor);
+  for (const HybridDraw& draw : plan.outside) stage(draw);
   if (blocks_.n_bytes() < staged_.size())
     blocks_ = GlBuffer(gl_, 2 * staged_.size(), nullptr, GL_DYNAMIC_STORAGE_BIT);
   if (!staged_.empty()) blocks_.write(0, staged_.size(), staged_.data());
 }
 
-void HybridRenderer::draw_range(const ResidentCell& cell, std::size_t first_block,
-                                const std::vector<HybridDraw>& draws) const {
-  for (std::size_t i = 0; i < draws.size(); ++i) {
-    const ReadyObject& object = cell.ready->objects[draws[i].slot];
-    gl_.BindBufferRange(GL_UNIFORM_BUFFER, 0, blocks_.id(),
-                        static_cast<GLintptr>((first_block + i) * block_stride_),
-                        sizeof(DrawBlock));
-    gl_.DrawElements(GL_TRIANGLES, static_cast<GLsizei>(object.n_indices), GL_UNSIGNED_INT,
-                     reinterpret_cast<const void*>(std::size_t{object.first_index} * 4));
-  }
+void HybridRenderer::draw_one(const ResidentCell& cell, const HybridPlan& plan,
+                              std::size_t i) const {
+  const ReadyObject& object = cell.ready->objects[plan.outside[i].slot];
+  gl_.BindBufferRange(GL_UNIFORM_BUFFER, 0, blocks_.id(), static_cast<GLintptr>(i * block_stride_),
+                      sizeof(DrawBlock));
+  gl_.DrawElements(GL_TRIANGLES, static_cast<GLsizei>(object.n_indices), GL_UNSIGNED_INT,
+                   reinterpret_cast<const void*>(std::size_t{object.first_index} * 4));
 }
 
 void HybridRenderer::draw(const glm::dmat4& clip_from_world, const ResidentCell& cell,
@@ -96,22 +95,26 @@ void HybridRenderer::draw(const glm::dmat4& clip_from_world, const ResidentCell&
   cell.array.bind();
   gl_.BindTextureUnit(0, texels);
   const glm::mat4 clip_from_local(glm::translate(clip_from_world, cell.ready->origin));
-  const auto use = [&](const GlProgram& program) {
-    gl_.ProgramUniformMatrix4fv(program.id(), program.uniform("clip_from_local"), 1, GL_FALSE,
+  for (const GlProgram* program : {&two_views_, &one_view_, &lit_, &edges_})
+    gl_.ProgramUniformMatrix4fv(program->id(), program->uniform("clip_from_local"), 1, GL_FALSE,
                                 glm::value_ptr(clip_from_local));
-    program.use();
-  };
-  const bool textured = style == HybridStyle::textured;
-  use(textured ? multi_view_ : lit_);
-  draw_range(cell, 0, plan.multi_view);
-  if (textured) use(single_view_);
-  draw_range(cell, plan.multi_view.size(), plan.single_view);
-  if (style != HybridStyle::wireframe) return;
-  use(edges_);
+  const GlProgram* current = nullptr;
+  for (std::size_t i = 0; i < plan.outside.size(); ++i) {
+    const bool blends = plan.outside[i].views.weight[1] > 0;
+    const GlProgram& program =
+        style != HybridStyle::textured ? lit_ : (blends ? two_views_ : one_view_);
+    if (&program != current) program.use();
+    current = &program;
+    draw_one(cell, plan, i);
+  }
+  if (style == HybridStyle::wireframe) draw_edges(cell, plan);
+}
+
+void HybridRenderer::draw_edges(const ResidentCell& cell, const HybridPlan& plan) const {
+  edges_.use();
   gl_.PolygonMode(GL_FRONT_AND_BACK, GL_LINE);
   gl_.DepthFunc(GL_GEQUAL);
-  draw_range(cell, 0, plan.multi_view);
-  draw_range(cell, plan.multi_view.size(), plan.single_view);
+  for (std::size_t i = 0; i < plan.outside.size(); ++i) draw_one(cell, plan, i);
   gl_.DepthFunc(GL_GREATER);
   gl_.PolygonMode(GL_FRONT_AND_BACK, GL_FILL);
 }

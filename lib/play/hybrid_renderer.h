@@ -15,7 +15,7 @@ enum class HybridStyle {
 struct HybridOptions {
   /// A texel counts for a fragment when their depths differ by at most this share of the object's
   /// depth range (trap 29: texels of another layer).
-  float depth_tolerance = 0.06f;
+  float depth_tolerance = 0.08f;
 };
 
 /// Follows: [Chen06 5.2.2]. Differs: which view a point may be textured from is decided for each
@@ -26,19 +26,19 @@ class HybridRenderer {
  public:
   HybridRenderer(const Gl& gl, const Scene& scene, const HybridOptions& options = {});
 
-  /// Into the bound framebuffer: the plan's multi_view, then its single_view.
+  /// Into the bound framebuffer: the plan's outside objects.
   void draw(const glm::dmat4& clip_from_world, const ResidentCell& cell, GLuint texels,
             const HybridPlan& plan, HybridStyle style = HybridStyle::textured);
 
  private:
   struct DrawBlock;
   void upload_blocks(const ResidentCell& cell, const HybridPlan& plan, HybridStyle style);
-  void draw_range(const ResidentCell& cell, std::size_t first_block,
-                  const std::vector<HybridDraw>& draws) const;
+  void draw_one(const ResidentCell& cell, const HybridPlan& plan, std::size_t i) const;
+  void draw_edges(const ResidentCell& cell, const HybridPlan& plan) const;
 
   const Gl& gl_;
   const Scene& scene_;
-  GlProgram multi_view_, single_view_, lit_, edges_;
+  GlProgram two_views_, one_view_, lit_, edges_;
   GlBuffer blocks_;
   std::size_t block_stride_ = 0;
   std::vector<char> staged_;

@@ -9,9 +9,9 @@ constexpr const char* kBlock = R"(
 layout(std140, binding = 0) uniform DrawBlock {
   vec4 base_color;     // linear
   vec4 weights;        // of views 0 and 1
-  vec4 rows[9];        // s, t, q of views 0, 1, 2
-  ivec4 regions[3];    // first texel, width, height
-  vec4 codes[3];       // scale, bias
+  vec4 rows[6];        // s, t, q of views 0, 1
+  ivec4 regions[2];    // first texel, width, height
+  vec4 codes[2];       // scale, bias
 };
 )";
 
@@ -21,17 +21,19 @@ std::string number(int i) {
 
 // The declarations that vertex and fragment shader share, as out or in. Whatever is the same for a
 // whole draw is read from the block by the fragments instead: covered pixels are few, and a
-// software rasteriser sets up every varying for every triangle.
+// software rasteriser sets up every varying for every triangle. It also runs both sides of every
+// branch, so the colour for what no view shows is made at the vertices.
 std::string varyings(const std::string& direction, int n_views) {
-  std::string out = "layout(location = 0) " + direction + " vec3 normal_world;\n";
+  std::string out = "layout(location = 0) " + direction + " vec3 lit;  // encoded\n";
   for (int k = 0; k < n_views; ++k)
     out +=
         "layout(location = " + number(1 + k) + ") " + direction + " vec3 stq" + number(k) + ";\n";
   return out;
 }
 
-// Four texels around the point, weighted bilinearly; only those at the fragment's own depth count.
-// Returns colour times weight, and the weight.
+// Four texels around the point, weighted bilinearly and by how near their depth is to the
+// fragment's own: with x = difference / tolerance, 1 / (1 + x^8), all but a step. Where no texel is
+// within the tolerance the nearest in depth wins. Returns colour times weight, and the weight.
 const char* kGuardedFetch = R"(
 layout(binding = 0) uniform samplerBuffer texels;
 vec4 guarded_fetch(vec3 stq, ivec4 region, vec4 code) {
@@ -46,68 +48,62 @@ vec4 guarded_fetch(vec3 stq, ivec4 region, vec4 code) {
   vec4 t01 = texelFetch(texels, i), t11 = texelFetch(texels, i + 1);
   vec4 away = abs(vec4(t00.a, t10.a, t01.a, t11.a) - (code.x * r + code.y));
   vec4 w = vec4((1.0 - f.x) * (1.0 - f.y), f.x * (1.0 - f.y), (1.0 - f.x) * f.y, f.x * f.y);
-  w *= step(away, vec4(DEPTH_TOLERANCE));
+  vec4 far = away * (1.0 / DEPTH_TOLERANCE);
+  far *= far;
+  far *= far;
+  w /= 1.0 + far * far;
   return vec4(w.x * t00.rgb + w.y * t10.rgb + w.z * t01.rgb + w.w * t11.rgb, dot(w, vec4(1)));
 }
 )";
 
-// Below this weight a view says nothing of the fragment.
-const char* kSingleViewMain = R"(
+// Below this weight the views say nothing of the fragment.
+const char* kTexturedMain = R"(
 void main() {
-  vec4 sum = guarded_fetch(stq0, regions[0], codes[0]);
-  if (sum.w > 0.01) color = vec4(sum.rgb / sum.w, 1.0);
-  else color = vec4(srgb_encode(shade(base_color.xyz, normalize(normal_world))), 254.0 / 255.0);
-}
-)";
-
-const char* kMultiViewMain = R"(
-void main() {
-  vec4 sum = weights.x * guarded_fetch(stq0, regions[0], codes[0]);
-  if (weights.y > 0.0) sum += weights.y * guarded_fetch(stq1, regions[1], codes[1]);
-  if (sum.w < 0.01) sum = guarded_fetch(stq2, regions[2], codes[2]);
-  if (sum.w > 0.001) color = vec4(sum.rgb / sum.w, 1.0);
-  else color = vec4(srgb_encode(shade(base_color.xyz, normalize(normal_world))), 254.0 / 255.0);
+  vec4 sum = FETCHES;
+  bool is_seen = sum.w > 0.0001;
+  color = vec4(is_seen ? sum.rgb / sum.w : lit, is_seen ? 1.0 : 254.0 / 255.0);
 }
 )";
 
 const char* kLitMain = R"(
-void main() {
-  color = vec4(srgb_encode(shade(base_color.xyz, normalize(normal_world))), 254.0 / 255.0);
-}
+void main() { color = vec4(lit, 254.0 / 255.0); }
 )";
+
+std::string replaced(std::string text, const std::string& name, const std::string& by) {
+  return text.replace(text.find(name), name.size(), by);
+}
+
+std::string make_fetches(int n_views) {
+  const std::string first = "guarded_fetch(stq0, regions[0], codes[0])";
+  if (n_views == 1) return first;
+  return "weights.x * " + first + " + weights.y * guarded_fetch(stq1, regions[1], codes[1])";
+}
 
 }  // namespace
 
-std::string make_hybrid_vertex_glsl(int n_views) {
+std::string make_hybrid_vertex_glsl(int n_views, const Lighting& lighting) {
   std::string out = std::string("#version 450 core\n") +
                     "layout(location = 0) in vec3 position;\n"
                     "layout(location = 1) in vec3 normal;\n"
                     "uniform mat4 clip_from_local;\n" +
-                    kBlock + varyings("out", n_views) +
+                    kBlock + make_shading_glsl(lighting) + varyings("out", n_views) +
                     "void main() {\n"
                     "  vec4 p = vec4(position, 1);\n"
                     "  gl_Position = clip_from_local * p;\n"
-                    "  normal_world = normal;\n"
-                    "";
+                    "  lit = srgb_encode(shade(base_color.xyz, normalize(normal)));\n";
   for (int k = 0; k < n_views; ++k) {
-    const std::string i = number(k);
     const auto row = [&](int r) { return "dot(rows[" + number(3 * k + r) + "], p)"; };
-    out += "  stq" + i + " = vec3(" + row(0) + ", " + row(1) + ", " + row(2) + ");\n";
+    out += "  stq" + number(k) + " = vec3(" + row(0) + ", " + row(1) + ", " + row(2) + ");\n";
   }
   return out + "}\n";
 }
 
-std::string make_hybrid_fragment_glsl(int n_views, const Lighting& lighting,
-                                      float depth_tolerance) {
-  std::string fetch = kGuardedFetch;
-  const std::string name = "DEPTH_TOLERANCE";
-  fetch.replace(fetch.find(name), name.size(), std::to_string(depth_tolerance));
-  return "#version 450 core\n" + varyings("in", n_views) +
-         "layout(location = 0) out vec4 color;\n" + kBlock + make_shading_glsl(lighting) +
-         (n_views > 0 ? fetch : "") +
-         (n_views == 0   ? kLitMain
-          : n_views == 1 ? kSingleViewMain
-                         : kMultiViewMain);
+std::string make_hybrid_fragment_glsl(int n_views, float depth_tolerance) {
+  const std::string out = "#version 450 core\n" + varyings("in", n_views) +
+                          "layout(location = 0) out vec4 color;\n" + kBlock;
+  if (n_views == 0) return out + kLitMain;
+  return out + replaced(kGuardedFetch, "DEPTH_TOLERANCE", std::to_string(depth_tolerance)) +
+         replaced(kTexturedMain, "FETCHES", make_fetches(n_views));
 }
 
 std::string make_edge_fragment_glsl() {

@@ -7,11 +7,11 @@
 
 namespace viewcell {
 
-/// n_views: 0 (lit only), 1 (SVMesh) or 3 (MVMesh: two blended, the third where both are blind).
-/// Vertex inputs: 0 position (cell-local), 1 normal. Uniform mat4 clip_from_local; uniform block 0
-/// DrawBlock as in hybrid_renderer.cpp; texture unit 0: the texels.
-std::string make_hybrid_vertex_glsl(int n_views);
-std::string make_hybrid_fragment_glsl(int n_views, const Lighting& lighting, float depth_tolerance);
+/// n_views: 0 (lit only), 1, or 2 (blended). Vertex inputs: 0 position (cell-local), 1 normal.
+/// Uniform mat4 clip_from_local; uniform block 0 DrawBlock as in hybrid_renderer.cpp; texture unit
+/// 0: the texels.
+std::string make_hybrid_vertex_glsl(int n_views, const Lighting& lighting);
+std::string make_hybrid_fragment_glsl(int n_views, float depth_tolerance);
 /// Plain dark edges for wireframes.
 std::string make_edge_fragment_glsl();
 

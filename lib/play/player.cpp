@@ -63,7 +63,7 @@ DrawnFrame Player::draw_hybrid(const Camera& camera, HybridStyle style) {
   if (style != HybridStyle::textured) inside_style.base_color = kOriginalColor;
   scene_renderer_.draw_objects(clip, inside, inside_style);
   hybrid_renderer_.draw(clip, cell, residency_.texel_texture(), plan, style);
-  return {0, n_triangles, inside.size() + plan.multi_view.size() + plan.single_view.size(),
+  return {0, n_triangles, inside.size() + plan.outside.size(),
           residency_.texture_bytes()};
 }
 
