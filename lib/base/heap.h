@@ -6,8 +6,9 @@
 
 namespace viewcell {
 
-/// Holds each id in [0, n) at most once, with a key. The least key is on top; equal keys are ordered
-/// by id, so the order of pops does not depend on the order of pushes. All operations O(log n).
+/// Holds each id in [0, n) at most once, with a key. The least key is on top; equal keys are
+/// ordered by id, so the order of pops does not depend on the order of pushes. All operations O(log
+/// n).
 class IndexedHeap {
  public:
   explicit IndexedHeap(std::uint32_t n) : place_(n, kAbsent), key_(n) {}

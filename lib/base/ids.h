@@ -19,7 +19,7 @@ enum class CentreId : std::int32_t {};
 
 /// The id as an index into an array.
 template <typename Id>
-  requires std::is_enum_v<Id>
+requires std::is_enum_v<Id>
 constexpr std::size_t index(Id id) {
   return static_cast<std::size_t>(id);
 }

@@ -57,7 +57,9 @@ void append_json(const Json& json, int indent, std::string& out) {
   out += "\n" + std::string(static_cast<std::size_t>(indent), ' ') + (object ? "}" : "]");
 }
 
-std::string format_number(double x) { return Json(x).dump(); }
+std::string format_number(double x) {
+  return Json(x).dump();
+}
 
 }  // namespace
 

@@ -6,7 +6,8 @@
 
 namespace viewcell {
 
-/// Told (done, total) as work completes, from any thread but never from two at a time. May be empty.
+/// Told (done, total) as work completes, from any thread but never from two at a time. May be
+/// empty.
 using Progress = std::function<void(std::size_t done, std::size_t total)>;
 
 /// The number of hardware threads that this process may use; at least 1.

@@ -2,6 +2,8 @@
 
 namespace viewcell {
 
-const char* version() { return VIEWCELL_VERSION; }
+const char* version() {
+  return VIEWCELL_VERSION;
+}
 
 }  // namespace viewcell
