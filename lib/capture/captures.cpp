@@ -82,9 +82,11 @@ CapturePart part_of(const CaptureTile& tile) {
 }  // namespace
 
 std::string CaptureSettings::key() const {
-  return hash_hex(scene_hash + " " + cells_hash + " " +
-                  Json({density.resolution_px, density.far_scale, density.far_distance}).dump() +
-                  " " + engine);
+  return hash_hex(
+      scene_hash + " " + cells_hash + " " +
+      Json({density.resolution_px, density.far_scale, density.far_distance, density.most_px})
+          .dump() +
+      " " + engine);
 }
 
 Json format_settings(const CaptureSettings& settings, const Json& provenance) {
@@ -96,6 +98,7 @@ Json format_settings(const CaptureSettings& settings, const Json& provenance) {
           {"resolution_px", settings.density.resolution_px},
           {"far_scale", settings.density.far_scale},
           {"far_distance", settings.density.far_distance},
+          {"most_px", settings.density.most_px},
           {"engine", settings.engine},
           {"key", settings.key()}};
 }
@@ -111,6 +114,7 @@ CaptureSettings read_settings(const fs::path& folder, const Scene& scene,
   settings.density.resolution_px = static_cast<int>(root.at("resolution_px").integer(1, 1 << 14));
   settings.density.far_scale = root.at("far_scale").number(0.1, 16);
   settings.density.far_distance = root.at("far_distance").number(0, 1e9);
+  settings.density.most_px = static_cast<int>(root.at("most_px").integer(1, 1 << 30));
   settings.engine = root.at("engine").string();
   if (settings.scene_hash != scene.hash)
     root.at("scene_hash").fail("these are captures of another scene; run depthcap again");

@@ -79,7 +79,13 @@ std::optional<ViewedObject> choose_view(const glm::dvec3& eye, std::span<const g
     view = make_view(eye, toward / length, focal_px, density.resolution_px);
     if (least_cosine(view, points) < std::cos(glm::radians(kMostDeg))) return {};
   }
-  return ViewedObject{view, crop_of(view, points)};
+  Crop crop = crop_of(view, points);
+  const double area_px = static_cast<double>(crop.width_px) * crop.height_px;
+  if (area_px > density.most_px) {
+    view.focal_px *= std::sqrt(density.most_px / area_px);
+    crop = crop_of(view, points);
+  }
+  return ViewedObject{view, crop};
 }
 
 }  // namespace viewcell

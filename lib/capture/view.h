@@ -54,6 +54,9 @@ struct CaptureDensity {
   int resolution_px = 1024;   ///< per width of a side face [Chen06 5.2.1]
   double far_scale = 2;       ///< times that density for far objects (1: as the paper)
   double far_distance = 300;  ///< an object is far when its nearest point is farther
+  /// Pixels that one object's crop may have: an object that the eye all but touches is seen more
+  /// coarsely, since the frames that it is captured for are drawn from farther away.
+  int most_px = 1 << 20;
 };
 
 /// The view of an object (its points in the world) from an eye: on the plane of the side face that

@@ -50,20 +50,13 @@ DrawnFrame Player::draw_hybrid(const Camera& camera, HybridStyle style) {
   const ResidentCell& cell = residency_.enter(camera);
   const HybridPlan plan =
       plan_hybrid(plan_scene_, bundle_.cells(), *cell.ready, cell.views, camera);
-  std::vector<ObjectDraw> inside;
-  std::size_t n_triangles = plan.n_triangles;
-  for (const ObjectId id : plan.inside) {
-    inside.push_back({id, 0});
-    const auto& mesh = plan_scene_.mesh_of(plan_scene_.objects[index(id)]);
-    n_triangles += mesh.levels[0].n_triangles;
-  }
   const glm::dmat4 clip = clip_from_world(camera);
   scene_renderer_.draw_background(target_, clip);
   DrawStyle inside_style;
   if (style != HybridStyle::textured) inside_style.base_color = kOriginalColor;
-  scene_renderer_.draw_objects(clip, inside, inside_style);
+  const std::size_t n_inside = scene_renderer_.draw_clusters(camera, plan.inside, inside_style);
   hybrid_renderer_.draw(clip, cell, residency_.texel_texture(), plan, style);
-  return {0, n_triangles, inside.size() + plan.outside.size(),
+  return {0, n_inside + plan.n_triangles, plan.inside.size() + plan.outside.size(),
           residency_.texture_bytes()};
 }
 

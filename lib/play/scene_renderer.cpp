@@ -1,5 +1,6 @@
 #include "play/scene_renderer.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -75,6 +76,7 @@ SceneRenderer::SceneRenderer(const Gl& gl, const Scene& scene,
   VIEWCELL_CHECK(levels.size() == scene.meshes.size(), levels.size(), scene.meshes.size());
   for (const SceneObject& object : scene.objects) {
     const Material& material = scene.materials[static_cast<std::size_t>(object.material)];
+    scene_objects_.push_back(&object);
     objects_.push_back({object.matrix_world_from_model(),
                         glm::mat3(glm::mat3_cast(object.rotation)), material.base_color,
                         object.mesh, material.double_sided});
@@ -108,6 +110,11 @@ void SceneRenderer::upload(const std::vector<MeshLevels>& levels) {
         vertices.push_back(make_vertex(mesh.positions[v], mesh.normals[v]));
       triangles.insert(triangles.end(), mesh.triangles.begin(), mesh.triangles.end());
     }
+    ClusteredMesh clustered = build_clusters(of_mesh[0].mesh);
+    cluster_ranges_.push_back({static_cast<GLsizei>(3 * clustered.triangles.size()),
+                               triangles.size() * sizeof(Triangle), ranges[0].first_vertex});
+    clusters_.push_back(std::move(clustered.clusters));
+    triangles.insert(triangles.end(), clustered.triangles.begin(), clustered.triangles.end());
   }
   vertices_ = make_buffer(gl_, vertices);
   indices_ = make_buffer(gl_, triangles);
@@ -142,33 +149,94 @@ void SceneRenderer::draw_background(const GlFramebuffer& target,
   gl_.Enable(GL_DEPTH_TEST);
 }
 
+const SceneRenderer::Program& SceneRenderer::use_program(const Object& object,
+                                                         const Program* current) const {
+  const Program& program = object.double_sided ? double_sided_ : single_sided_;
+  if (&program == current) return program;
+  program.program.use();
+  (object.double_sided ? gl_.Disable : gl_.Enable)(GL_CULL_FACE);
+  return program;
+}
+
+void SceneRenderer::set_object(const Program& program, const Object& object,
+                               const glm::dmat4& clip_from_world, const DrawStyle& style) const {
+  const GLuint id = program.program.id();
+  // The product in double: near an eye far from the origin, float would lose what cancels.
+  const glm::mat4 clip_from_model(clip_from_world * object.world_from_model);
+  const glm::vec3 base_color = style.base_color.value_or(object.base_color);
+  gl_.ProgramUniformMatrix4fv(id, program.clip_from_model, 1, GL_FALSE,
+                              glm::value_ptr(clip_from_model));
+  gl_.ProgramUniformMatrix3fv(id, program.normal_matrix, 1, GL_FALSE,
+                              glm::value_ptr(object.rotation));
+  gl_.ProgramUniform3fv(id, program.base_color, 1, glm::value_ptr(base_color));
+}
+
 void SceneRenderer::draw_objects(const glm::dmat4& clip_from_world,
                                  std::span<const ObjectDraw> draws, const DrawStyle& style) const {
   array_.bind();
   const Program* current = nullptr;
   for (const ObjectDraw& draw : draws) {
     const Object& object = objects_[index(draw.object)];
-    const Program& program = object.double_sided ? double_sided_ : single_sided_;
-    if (&program != current) {
-      program.program.use();
-      (object.double_sided ? gl_.Disable : gl_.Enable)(GL_CULL_FACE);
-      current = &program;
-    }
-    const GLuint id = program.program.id();
-    // The product in double: near an eye far from the origin, float would lose what cancels.
-    const glm::mat4 clip_from_model(clip_from_world * object.world_from_model);
-    const glm::vec3 base_color = style.base_color.value_or(object.base_color);
-    gl_.ProgramUniformMatrix4fv(id, program.clip_from_model, 1, GL_FALSE,
-                                glm::value_ptr(clip_from_model));
-    gl_.ProgramUniformMatrix3fv(id, program.normal_matrix, 1, GL_FALSE,
-                                glm::value_ptr(object.rotation));
-    gl_.ProgramUniform3fv(id, program.base_color, 1, glm::value_ptr(base_color));
+    current = &use_program(object, current);
+    set_object(*current, object, clip_from_world, style);
     const Range& range = ranges_[index(object.mesh)][static_cast<std::size_t>(draw.level)];
     gl_.DrawElementsBaseVertex(GL_TRIANGLES, range.n_indices, GL_UNSIGNED_INT,
                                reinterpret_cast<const void*>(range.index_offset),
                                range.first_vertex);
   }
   gl_.Enable(GL_CULL_FACE);
+}
+
+namespace {
+
+// A cluster's sphere against the frustum's planes, which are not of unit length.
+bool is_outside(const Frustum& frustum, const glm::dvec3& centre, double radius) {
+  return std::any_of(std::begin(frustum.planes), std::end(frustum.planes), [&](const auto& plane) {
+    return glm::dot(plane, glm::dvec4(centre, 1)) < -radius * glm::length(glm::dvec3(plane));
+  });
+}
+
+}  // namespace
+
+std::size_t SceneRenderer::draw_clusters(const Camera& camera, std::span<const ObjectId> objects,
+                                         const DrawStyle& style) const {
+  const glm::dmat4 clip = clip_from_world(camera);
+  const Frustum frustum = make_frustum(camera);
+  array_.bind();
+  const Program* current = nullptr;
+  std::size_t n_drawn = 0;
+  for (const ObjectId id : objects) {
+    const Object& object = objects_[index(id)];
+    const SceneObject& placed = *scene_objects_[index(id)];
+    current = &use_program(object, current);
+    set_object(*current, object, clip, style);
+    const glm::dvec3 eye_model = placed.model_from_world(camera.eye);
+    const Range& range = cluster_ranges_[index(object.mesh)];
+    std::uint32_t first = 0, n = 0;  // a run of clusters to draw, in triangles
+    const auto draw_run = [&] {
+      if (n > 0)
+        gl_.DrawElementsBaseVertex(
+            GL_TRIANGLES, static_cast<GLsizei>(3 * n), GL_UNSIGNED_INT,
+            reinterpret_cast<const void*>(range.index_offset + first * sizeof(Triangle)),
+            range.first_vertex);
+      n_drawn += n;
+      n = 0;
+    };
+    for (const Cluster& cluster : clusters_[index(object.mesh)]) {
+      const bool hidden = (!object.double_sided && is_back_facing(cluster, eye_model)) ||
+                          is_outside(frustum, placed.world_from_model(cluster.centre),
+                                     cluster.radius * placed.scale);
+      if (hidden) {
+        draw_run();
+      } else {
+        if (n == 0) first = cluster.first_triangle;
+        n += cluster.n_triangles;
+      }
+    }
+    draw_run();
+  }
+  gl_.Enable(GL_CULL_FACE);
+  return n_drawn;
 }
 
 glm::dmat4 shift_pixels(const glm::dmat4& clip_from_world, const glm::dvec2& shift_px, int width_px,

@@ -8,6 +8,7 @@
 
 #include "gl/framebuffer.h"
 #include "gl/objects.h"
+#include "mesh/clusters.h"
 #include "play/frame_plan.h"
 #include "play/mesh_levels.h"
 
@@ -33,6 +34,11 @@ class SceneRenderer {
   /// Into the bound framebuffer.
   void draw_objects(const glm::dmat4& clip_from_world, std::span<const ObjectDraw> draws,
                     const DrawStyle& style = {}) const;
+  /// The original of each object, front to back as given, without the clusters of triangles that
+  /// lie outside the frustum or turn their backs on the eye [Chen06 5.2.2, run-time back-face
+  /// culling]. Returns the triangles drawn.
+  std::size_t draw_clusters(const Camera& camera, std::span<const ObjectId> objects,
+                            const DrawStyle& style = {}) const;
 
  private:
   struct Range {
@@ -53,11 +59,17 @@ class SceneRenderer {
   };
 
   void upload(const std::vector<MeshLevels>& levels);
+  const Program& use_program(const Object& object, const Program* current) const;
+  void set_object(const Program& program, const Object& object, const glm::dmat4& clip_from_world,
+                  const DrawStyle& style) const;
   Program make_program(const Lighting& lighting, bool double_sided) const;
 
   const Gl& gl_;
   std::vector<Object> objects_;
-  std::vector<std::vector<Range>> ranges_;  // by mesh, by level
+  std::vector<std::vector<Range>> ranges_;         // by mesh, by level
+  std::vector<Range> cluster_ranges_;              // by mesh: level 0 in the order of its clusters
+  std::vector<std::vector<Cluster>> clusters_;     // by mesh, model space
+  std::vector<const SceneObject*> scene_objects_;  // by object
   GlBuffer vertices_, indices_;
   GlVertexArray array_;
   Program single_sided_, double_sided_;

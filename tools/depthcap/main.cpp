@@ -36,6 +36,9 @@ void declare(Tool& tool, Options& options) {
   app.add_option("--far-distance", options.density.far_distance, "from where an object is far")
       ->capture_default_str()
       ->check(within(0, 1e9));
+  app.add_option("--most-pixels", options.density.most_px, "pixels of one object's crop at most")
+      ->capture_default_str()
+      ->check(CLI::Range(64, 1 << 28));
   app.add_option("--engine", options.engine, "embree | gl")
       ->capture_default_str()
       ->check(CLI::IsMember({"embree"}));
@@ -90,6 +93,7 @@ int run(const Tool& tool, const Options& options) {
                                        {{"resolution", options.density.resolution_px},
                                         {"far_scale", options.density.far_scale},
                                         {"far_distance", options.density.far_distance},
+                                        {"most_pixels", options.density.most_px},
                                         {"engine", options.engine}},
                                        {{"scene", scene.hash}, {"cells", settings.cells_hash}});
   write_file(folder / kCapturesManifest, format_json(format_settings(settings, made_by)));
