@@ -119,6 +119,29 @@ TEST(CollapseLoop, IllegalTopDoesNotEndIt) {
   for (std::uint32_t v = 0; v < sphere.positions.size(); v += 3) EXPECT_TRUE(mesh.has_triangles(v));
 }
 
+// Vertex 84 may not collapse anywhere before its neighbour 98 has; 98 may not go into 84.
+struct WaitingMetric : ListedMetric {
+  bool is_open = false;
+  bool allows(const CollapseMesh&, std::uint32_t u, std::uint32_t v) const {
+    return u == 84 ? is_open : v != 84;
+  }
+  void collapsed(std::uint32_t u, std::uint32_t v) {
+    is_open = is_open || u == 98;
+    ListedMetric::collapsed(u, v);
+  }
+};
+
+TEST(CollapseLoop, ParkedVertexIsTriedAgainWhenItsSurroundingsChange) {
+  const TriMesh grid = make_flat_grid(12);
+  WaitingMetric metric;
+  metric.costs.assign(grid.positions.size(), kNever);
+  metric.costs[84] = 0, metric.costs[98] = 1;
+  CollapseMesh mesh(grid.positions, grid.triangles);
+  CollapseLoop loop(mesh, metric);
+  EXPECT_EQ(loop.run({}).n_collapses, 2u);
+  EXPECT_EQ(metric.made, (std::vector<Edge>{{98, 85}, {84, 70}}));
+}
+
 std::vector<Triangle> run_in_steps(const TriMesh& input, const std::vector<CollapseLimits>& steps,
                                    std::size_t& n_collapses) {
   CollapseMesh mesh(input.positions, input.triangles);
