@@ -42,7 +42,7 @@ WeightedMeshes derive_cell(const BakeScene& bake, const std::filesystem::path& c
   std::vector<CentreCaptures> centres;
   for (std::size_t k = 0; k < (kind == Representation::single_view ? 1u : ids.size()); ++k)
     centres.emplace_back(capture_file_of(captures, ids[k]), settings);
-  WeightedMeshes out{kind, cell, "", {}};
+  WeightedMeshes out{kind, cell, settings.key(), "", {}};
   for (std::size_t o = 0; o < bake.scene.objects.size(); ++o) {
     if (choose_representation(bake, cell, ObjectId(o), options) != kind) continue;
     const auto views = read_views(centres, ObjectId(o), options.categories);

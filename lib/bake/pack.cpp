@@ -42,8 +42,9 @@ struct CellMeshes {
 };
 
 CellMeshes read_cell_meshes(const Scene& scene, const CellSet& cells, const PackInputs& inputs,
-                            CellId cell) {
+                            const std::string& captures_key, CellId cell) {
   CellMeshes out;
+  std::string made_from;  // of the first file
   std::vector<int> n_times(scene.objects.size(), 0);
   for (const fs::path& folder : {inputs.svmesh, inputs.mvmesh}) {
     const fs::path file = folder / weighted_mesh_name(cell);
@@ -52,6 +53,13 @@ CellMeshes read_cell_meshes(const Scene& scene, const CellSet& cells, const Pack
     const auto kind =
         folder == inputs.svmesh ? Representation::single_view : Representation::multi_view;
     if (read.kind != kind) throw InputError(file.string(), "header", "is of the other kind");
+    if (read.captures != captures_key)
+      throw InputError(file.string(), "header",
+                       "was derived from other captures; run svmesh and mvmesh again");
+    if (!made_from.empty() && read.made_from != made_from)
+      throw InputError(file.string(), "header",
+                       "was derived with other options than its counterpart in svmesh");
+    made_from = read.made_from;
     for (CellMesh& mesh : read.meshes) {
       ++n_times[index(mesh.object)];
       optimize_order(mesh);
@@ -127,6 +135,14 @@ void copy_into(const fs::path& from, const fs::path& to) {
   write_file(to, read_file(from));
 }
 
+// A .gltf keeps its buffers in other files, which a bundle would lack.
+void check_self_contained(const Scene& scene, const fs::path& scene_file) {
+  for (const SceneMesh& mesh : scene.meshes)
+    if (fs::path(mesh.file).extension() == ".gltf")
+      throw InputError(scene_file.string(), "mesh '" + mesh.file + "'",
+                       "keeps its buffers in other files; a bundle takes .glb, .ply, .obj, .off");
+}
+
 CentreTextures read_textures(const fs::path& captures, const CaptureSettings& settings,
                              CentreId centre, const std::set<ObjectId>& objects) {
   CentreCaptures file(capture_file_of(captures, centre), settings);
@@ -150,6 +166,7 @@ PackCounts pack_bundle(const Scene& scene, const CellSet& cells, const PackInput
                        const fs::path& bundle, int n_threads, const Progress& progress) {
   const CaptureSettings settings =
       read_settings(inputs.captures, scene, hash_file(inputs.cells_file));
+  check_self_contained(scene, inputs.scene_file);
   std::error_code ignored;
   fs::remove(bundle / kManifestName, ignored);  // from here on the folder is no bundle
   make_folder(bundle / "cells");
@@ -159,7 +176,7 @@ PackCounts pack_bundle(const Scene& scene, const CellSet& cells, const PackInput
   TilesNeeded needed;
   std::mutex mutex;  // guards both
   const auto pack_cell = [&](std::size_t i) {
-    const CellMeshes meshes = read_cell_meshes(scene, cells, inputs, list[i]);
+    const CellMeshes meshes = read_cell_meshes(scene, cells, inputs, settings.key(), list[i]);
     write_cell_geometry(cell_file(bundle, list[i]), make_geometry(scene, meshes));
     const std::lock_guard lock(mutex);
     add_needed(cells, list[i], meshes, needed);

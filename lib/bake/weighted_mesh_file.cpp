@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <sstream>
 
 #include "base/error.h"
 #include "base/file.h"
@@ -19,7 +20,8 @@ const char* kind_name(Representation kind) {
 // "key value" among the comments; throws when absent.
 std::string comment_value(const PlyDocument& document, const std::string& key) {
   for (const std::string& comment : document.comments)
-    if (comment.starts_with(key + " ")) return comment.substr(key.size() + 1);
+    if (comment == key || comment.starts_with(key + " "))
+      return comment.substr(std::min(comment.size(), key.size() + 1));
   throw InputError(document.file, "header", "has no comment '" + key + "'");
 }
 
@@ -48,6 +50,29 @@ struct Columns {
     objects.insert(objects.end(), mesh.triangles.size(), static_cast<std::int32_t>(mesh.object));
   }
 };
+
+// Meshes without faces, for the objects that the header lists and no face names. The list must be
+// ascending and hold every object that a face names.
+void add_empty_meshes(const PlyDocument& document, const Scene& scene,
+                      std::vector<CellMesh>& meshes) {
+  std::vector<CellMesh> all;
+  std::istringstream list(comment_value(document, "objects"));
+  std::size_t next = 0;  // of meshes
+  for (long object = 0; list >> object;) {
+    const bool in_range = object >= 0 && object < static_cast<long>(scene.objects.size());
+    if (!in_range || (!all.empty() && object <= static_cast<long>(all.back().object)))
+      throw InputError(document.file, "header", "its list of objects is out of order or range");
+    if (next < meshes.size() && static_cast<long>(meshes[next].object) == object) {
+      all.push_back(std::move(meshes[next++]));
+    } else {
+      all.emplace_back();
+      all.back().object = ObjectId(object);
+    }
+  }
+  if (next != meshes.size())
+    throw InputError(document.file, "header", "its list of objects lacks one that has faces");
+  meshes = std::move(all);
+}
 
 // Takes the rows of one object out of the document's columns.
 class MeshSplitter {
@@ -130,11 +155,19 @@ std::string weighted_mesh_name(CellId cell) {
 void write_weighted_meshes(const std::filesystem::path& file, const WeightedMeshes& meshes,
                            const std::string& provenance) {
   Columns columns;
-  for (const CellMesh& mesh : meshes.meshes) columns.append(mesh);
+  std::string objects;  // also those of which no face is left
+  for (const CellMesh& mesh : meshes.meshes) {
+    columns.append(mesh);
+    objects += " " + std::to_string(static_cast<int>(mesh.object));
+  }
   PlyDocument document;
-  document.comments = {kTitle, std::string("kind ") + kind_name(meshes.kind),
+  document.comments = {kTitle,
+                       std::string("kind ") + kind_name(meshes.kind),
                        "cell " + std::to_string(static_cast<int>(meshes.cell)),
-                       "made_from " + meshes.made_from, "made_by " + provenance};
+                       "captures " + meshes.captures,
+                       "made_from " + meshes.made_from,
+                       "made_by " + provenance,
+                       "objects" + objects};
   PlyElement vertex;
   vertex.name = "vertex";
   vertex.count = columns.positions.size();
@@ -160,9 +193,11 @@ WeightedMeshes read_weighted_meshes(const std::filesystem::path& file, const Sce
   WeightedMeshes out;
   out.kind = comment_value(document, "kind") == "svmesh" ? Representation::single_view
                                                          : Representation::multi_view;
+  out.captures = comment_value(document, "captures");
   out.made_from = comment_value(document, "made_from");
   out.cell = CellId(std::atoi(comment_value(document, "cell").c_str()));
   out.meshes = MeshSplitter(document, scene).split(scene);
+  add_empty_meshes(document, scene, out.meshes);
   return out;
 }
 

@@ -13,8 +13,9 @@ namespace viewcell {
 struct WeightedMeshes {
   Representation kind = Representation::single_view;
   CellId cell{};
-  std::string
-      made_from;  ///< hash of scene, cells, captures and options: files of one bake share it
+  std::string captures;  ///< key of the captures that they were derived from
+  /// Hash of those and of the options: both kinds of one bake share it.
+  std::string made_from;
   std::vector<CellMesh> meshes;  ///< ascending by object
 };
 

@@ -79,7 +79,7 @@ int run(const Tool& tool, Representation kind, Options& options) {
   options.bake.resolution_px = settings.density.resolution_px;
   const std::string made_by =
       make_provenance(tool, format_options(options.bake), {{"captures", settings.key()}}).dump();
-  const std::string key = hash_hex(made_by);
+  const std::string key = hash_hex(settings.key() + format_options(options.bake).dump());
   const std::filesystem::path folder = tool.common().output;
   make_folder(folder);
 
