@@ -3,12 +3,14 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "capture/capture_centre.h"
 #include "capture/captures.h"
+#include "capture/raster_capture.h"
 
 #include "capture/ray_capture.h"
 #include "common/provenance.h"
 #include "common/tool.h"
-#include "image/fill.h"
+#include "gl/context.h"
 
 namespace viewcell {
 namespace {
@@ -17,7 +19,7 @@ struct Options {
   std::string scene_file, cells_file;
   std::string cell_list = "all", slice;
   CaptureDensity density;
-  std::string engine = "embree";
+  std::string engine = "embree", gl = "osmesa";
 };
 
 void declare(Tool& tool, Options& options) {
@@ -41,18 +43,29 @@ void declare(Tool& tool, Options& options) {
       ->check(CLI::Range(64, 1 << 28));
   app.add_option("--engine", options.engine, "embree | gl")
       ->capture_default_str()
-      ->check(CLI::IsMember({"embree"}));
+      ->check(CLI::IsMember({"embree", "gl"}));
+  app.add_option("--gl", options.gl, "of engine gl: osmesa | egl")->capture_default_str();
   tool.add_output("folder of captures to write");
 }
 
-std::vector<std::vector<glm::dvec3>> place_points(const Scene& scene) {
-  std::vector<std::vector<glm::dvec3>> points;
-  for (const SceneObject& object : scene.objects) {
-    auto& placed = points.emplace_back();
-    for (const glm::vec3& p : scene.mesh_of(object).mesh.positions)
-      placed.push_back(object.world_from_model(glm::dvec3(p)));
+// Sums over centres; captured from several threads.
+struct Counts {
+  std::atomic<std::size_t> n_kept{0}, n_tiles{0}, n_pixels{0}, n_left_out{0};
+};
+
+// Calls visit(engine, n_threads) with the engine asked for; GL draws on one thread only.
+template <typename Visit>
+void with_engine(const Options& options, const Scene& scene, int n_threads, const Visit& visit) {
+  if (options.engine == "embree") {
+    const RayCapture rays(scene, n_threads);
+    visit([&](ObjectId o, const CaptureView& v, const Crop& c) { return rays.capture(o, v, c); },
+          n_threads);
+  } else {
+    const GlContext context(parse_gl_engine(options.gl));
+    RasterCapture raster(context.gl(), scene);
+    visit([&](ObjectId o, const CaptureView& v, const Crop& c) { return raster.capture(o, v, c); },
+          1);
   }
-  return points;
 }
 
 int run(const Tool& tool, const Options& options) {
@@ -66,29 +79,24 @@ int run(const Tool& tool, const Options& options) {
   const std::filesystem::path folder = tool.common().output;
   make_folder(folder);
 
-  const RayCapture engine(scene, n_threads);
   const auto points = place_points(scene);
-  std::atomic<std::size_t> n_kept{0}, n_tiles{0}, n_pixels{0}, n_left_out{0};
-  const auto capture_centre = [&](std::size_t i) {
-    const std::filesystem::path file = capture_file_of(folder, centres[i]);
-    if (is_captured(file, settings)) {
-      ++n_kept;
-      return;
-    }
-    std::vector<CaptureTile> tiles;
-    for (const ObjectId object : objects_seen_from(cells, centres[i])) {
-      const auto viewed =
-          choose_view(eye_of(cells, centres[i]), points[index(object)], options.density);
-      n_left_out += !viewed;
-      if (!viewed) continue;
-      tiles.push_back(engine.capture(object, viewed->view, viewed->crop));
-      push_pull_fill(tiles.back().color, tiles.back().inverse_depth);
-      n_pixels += tiles.back().color.pixels.size();
-    }
-    n_tiles += tiles.size();
-    write_captures(file, tiles, settings);
-  };
-  parallel_for(centres.size(), n_threads, capture_centre, tool.progress("centres"));
+  Counts counts;
+  with_engine(options, scene, n_threads, [&](const CaptureEngine& engine, int n_workers) {
+    const auto capture = [&](std::size_t i) {
+      const std::filesystem::path file = capture_file_of(folder, centres[i]);
+      if (is_captured(file, settings)) {
+        ++counts.n_kept;
+        return;
+      }
+      const CentreTiles captured =
+          capture_centre(cells, centres[i], points, options.density, engine);
+      write_captures(file, captured.tiles, settings);
+      counts.n_left_out += captured.n_left_out;
+      counts.n_tiles += captured.tiles.size();
+      for (const CaptureTile& tile : captured.tiles) counts.n_pixels += tile.color.pixels.size();
+    };
+    parallel_for(centres.size(), n_workers, capture, tool.progress("centres"));
+  });
   const Json made_by = make_provenance(tool,
                                        {{"resolution", options.density.resolution_px},
                                         {"far_scale", options.density.far_scale},
@@ -98,12 +106,12 @@ int run(const Tool& tool, const Options& options) {
                                        {{"scene", scene.hash}, {"cells", settings.cells_hash}});
   write_file(folder / kCapturesManifest, format_json(format_settings(settings, made_by)));
   tool.report({{"centres", centres.size()},
-               {"kept", n_kept.load()},
-               {"captures", n_tiles.load()},
-               {"pixels", n_pixels.load()},
-               {"left_out", n_left_out.load()}});
-  tool.say(std::to_string(centres.size()) + " centres, " + std::to_string(n_kept.load()) +
-           " of them already there, " + std::to_string(n_tiles.load()) + " captures");
+               {"kept", counts.n_kept.load()},
+               {"captures", counts.n_tiles.load()},
+               {"pixels", counts.n_pixels.load()},
+               {"left_out", counts.n_left_out.load()}});
+  tool.say(std::to_string(centres.size()) + " centres, " + std::to_string(counts.n_kept.load()) +
+           " of them already there, " + std::to_string(counts.n_tiles.load()) + " captures");
   return 0;
 }
 

@@ -1,0 +1,28 @@
+// All that one centre captures, by either engine.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "capture/tile.h"
+#include "cells/cells.h"
+
+namespace viewcell {
+
+/// Casts or draws one object in one view: RayCapture::capture or RasterCapture::capture.
+using CaptureEngine = std::function<CaptureTile(ObjectId, const CaptureView&, const Crop&)>;
+
+/// Every object's vertices in the world, by object: 24 bytes a vertex and object.
+std::vector<std::vector<glm::dvec3>> place_points(const Scene& scene);
+
+struct CentreTiles {
+  std::vector<CaptureTile> tiles;  ///< filled beyond the objects, ascending by object
+  std::size_t n_left_out = 0;      ///< objects that the eye is inside of, or all but touches
+};
+
+/// points: of place_points.
+CentreTiles capture_centre(const CellSet& cells, CentreId centre,
+                           const std::vector<std::vector<glm::dvec3>>& points,
+                           const CaptureDensity& density, const CaptureEngine& engine);
+
+}  // namespace viewcell
