@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 
 #include "base/file.h"
@@ -115,7 +116,7 @@ std::vector<std::size_t> choose_sheet_frames(const Timeline& timeline, std::size
     const auto first = timeline.frames.begin() + static_cast<std::ptrdiff_t>(r * n / n_rows);
     const auto last = timeline.frames.begin() + static_cast<std::ptrdiff_t>((r + 1) * n / n_rows);
     const auto best = std::max_element(first, last, [](const FrameInfo& a, const FrameInfo& b) {
-      return a.coverage < b.coverage;
+      return std::isnan(a.coverage) ? !std::isnan(b.coverage) : a.coverage < b.coverage;
     });
     chosen.push_back(static_cast<std::size_t>(best - timeline.frames.begin()));
   }
@@ -160,7 +161,7 @@ Session run_session(Player& player, const Bundle& bundle, const CameraPath& path
   Comparer comparer(player, options, session.timeline);
   Pass pass(progress, cameras.size(), cameras.size());
   for (std::size_t i = 0; i < cameras.size(); ++i) {
-    comparer.compare(i, cameras[i]);
+    if (i % options.quality_every == 0) comparer.compare(i, cameras[i]);
     pass.step();
   }
   const bool has_hybrid =

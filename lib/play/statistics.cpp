@@ -78,7 +78,8 @@ Quality yardstick_of(const Timeline& timeline) {
 std::vector<double> missing_px(const ModeTimeline& mode) {
   std::vector<double> values;
   for (const FrameRecord& frame : mode.frames)
-    values.push_back(static_cast<double>(frame.quality.missing_px));
+    if (!std::isnan(frame.quality.mse))  // compared
+      values.push_back(static_cast<double>(frame.quality.missing_px));
   return values;
 }
 
@@ -108,7 +109,7 @@ Json frame_to_json(const Timeline& timeline, std::size_t i) {
   Json json = {{"frame", i},
                {"time_s", info.time_s},
                {"cell", info.cell},
-               {"coverage", info.coverage},
+               {"coverage", number_or_null(info.coverage)},
                {"yardstick_psnr_db", number_or_null(info.yardstick.psnr_db)},
                {"yardstick_psnr_covered_db", number_or_null(info.yardstick.psnr_covered_db)},
                {"modes", Json::object()}};
@@ -138,9 +139,10 @@ Json speedups(const Timeline& timeline) {
 }
 
 double coverage_mean(const Timeline& timeline) {
-  double sum = 0;
-  for (const FrameInfo& frame : timeline.frames) sum += frame.coverage;
-  return sum / static_cast<double>(timeline.frames.size());
+  std::vector<double> measured;
+  for (const FrameInfo& frame : timeline.frames)
+    if (!std::isnan(frame.coverage)) measured.push_back(frame.coverage);
+  return mean_of(measured);
 }
 
 Json floor_to_json(const Timeline& timeline) {

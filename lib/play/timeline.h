@@ -34,9 +34,9 @@ struct FrameRecord {
 
 /// What a frame is, whatever draws it.
 struct FrameInfo {
-  double time_s = 0;         ///< along the path
-  int cell = -1;             ///< the view cell of the eye; -1: none
-  double coverage = 0;       ///< share of the reference's pixels that show an object
+  double time_s = 0;               ///< along the path
+  int cell = -1;                   ///< the view cell of the eye; -1: none
+  double coverage = kNotMeasured;  ///< share of the reference's pixels that show an object
   PictureQuality yardstick;  ///< the reference against itself shifted by half a pixel in x and y
 };
 

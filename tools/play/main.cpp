@@ -37,6 +37,9 @@ void declare(Tool& tool, Options& o) {
   app.add_option("--every", o.session.save_every, "save every K-th frame")
       ->capture_default_str()
       ->check(CLI::Range(1, 100000));
+  app.add_option("--quality-every", o.session.quality_every, "compare every K-th frame")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 100000));
   app.add_option("--stats", o.stats_file, "write statistics as JSON (-: stdout)");
   app.add_option("--plots", o.plots_folder, "folder to write plots to, as SVG");
   app.add_option("--sheet", o.sheet_file, "write a contact sheet of chosen frames, as PNG");
