@@ -108,17 +108,20 @@ class Comparer {
   Timeline& timeline_;
 };
 
-// Evenly along the path, each moved to the frame around it in which objects cover most.
-std::vector<std::size_t> choose_sheet_frames(const Timeline& timeline, std::size_t n_rows) {
+// Of each equal part of the path the frame in which the hybrid is farthest from the reference: a
+// sheet shows the worst.
+std::vector<std::size_t> choose_sheet_frames(const ModeTimeline& hybrid, std::size_t n_rows) {
+  const auto error = [](const FrameRecord& frame) {
+    return std::isnan(frame.quality.mse) ? -1.0 : frame.quality.mse;
+  };
   std::vector<std::size_t> chosen;
-  const std::size_t n = timeline.frames.size();
+  const std::size_t n = hybrid.frames.size();
   for (std::size_t r = 0; r < std::min(n_rows, n); ++r) {
-    const auto first = timeline.frames.begin() + static_cast<std::ptrdiff_t>(r * n / n_rows);
-    const auto last = timeline.frames.begin() + static_cast<std::ptrdiff_t>((r + 1) * n / n_rows);
-    const auto best = std::max_element(first, last, [](const FrameInfo& a, const FrameInfo& b) {
-      return std::isnan(a.coverage) ? !std::isnan(b.coverage) : a.coverage < b.coverage;
-    });
-    chosen.push_back(static_cast<std::size_t>(best - timeline.frames.begin()));
+    const auto first = hybrid.frames.begin() + static_cast<std::ptrdiff_t>(r * n / n_rows);
+    const auto last = hybrid.frames.begin() + static_cast<std::ptrdiff_t>((r + 1) * n / n_rows);
+    const auto worst = std::max_element(
+        first, last, [&](const auto& a, const auto& b) { return error(a) < error(b); });
+    chosen.push_back(static_cast<std::size_t>(worst - hybrid.frames.begin()));
   }
   return chosen;
 }
@@ -164,11 +167,13 @@ Session run_session(Player& player, const Bundle& bundle, const CameraPath& path
     if (i % options.quality_every == 0) comparer.compare(i, cameras[i]);
     pass.step();
   }
-  const bool has_hybrid =
-      std::find(options.modes.begin(), options.modes.end(), Mode::hybrid) != options.modes.end();
-  if (!has_hybrid) return session;
+  const auto& modes = session.timeline.modes;
+  const auto hybrid = std::find_if(modes.begin(), modes.end(), [](const ModeTimeline& mode) {
+    return mode.mode == mode_name(Mode::hybrid);
+  });
+  if (hybrid == modes.end()) return session;
   std::vector<SheetRow> rows;
-  for (const std::size_t i : choose_sheet_frames(session.timeline, options.n_sheet_rows))
+  for (const std::size_t i : choose_sheet_frames(*hybrid, options.n_sheet_rows))
     rows.push_back(comparer.make_row(i, cameras[i]));
   session.contact_sheet = make_contact_sheet(
       {mode_name(options.reference), "hybrid", "difference x 8", "MVMesh, SVMesh, original"}, rows);
