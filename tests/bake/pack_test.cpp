@@ -1,0 +1,211 @@
+#include "bake/pack.h"
+
+#include <gtest/gtest.h>
+
+#include "mesh/expect_input_error.h"
+#include "small_bake.h"
+
+namespace viewcell {
+namespace {
+namespace fs = std::filesystem;
+
+// The shared bake with meshes of its own, to be changed.
+struct MeshesCopy {
+  TemporaryFolder folder;
+  PackInputs inputs = shared_bake().inputs;
+  fs::path bundle = folder.path() / "bundle";
+  MeshesCopy() {
+    for (fs::path* part : {&inputs.svmesh, &inputs.mvmesh}) {
+      fs::copy(*part, folder.path() / part->filename(), fs::copy_options::recursive);
+      *part = folder.path() / part->filename();
+    }
+  }
+  PackCounts pack() const { return shared_bake().pack(bundle, inputs, shared_bake().list); }
+  // Reads, changes and writes the meshes of a cell; packing must then be refused.
+  template <typename Change>
+  void refused(const fs::path& from, const Change& change, const char* message) const {
+    const CellId cell = shared_bake().list[4];
+    const fs::path file = from / weighted_mesh_name(cell);
+    const std::string before = read_file(file);
+    WeightedMeshes meshes = read_weighted_meshes(file, shared_bake().scene);
+    change(meshes);
+    write_weighted_meshes(file, meshes, "test");
+    EXPECT_INPUT_ERROR(pack(), message);
+    EXPECT_FALSE(fs::exists(bundle / kManifestName));
+    write_file(file, before);
+  }
+};
+
+TEST(Pack, EveryOutsideObjectOnceAndInsideOnesNever) {
+  const SmallBake& small = shared_bake();
+  const TemporaryFolder folder;
+  const PackCounts counts = small.pack(folder.path() / "bundle");
+  const Bundle bundle(folder.path() / "bundle");
+  EXPECT_EQ(counts.n_cells, small.list.size());
+  EXPECT_EQ(bundle.manifest().cells, small.list);
+  EXPECT_EQ(bundle.manifest().resolution_px, 256);
+  std::size_t n_single = 0, n_triangles = 0, n_texels = 0, n_inside = 0;
+  for (const CellId cell : small.list) {
+    std::set<int> found;
+    for (const BundleObject& o : bundle.read_cell(cell).objects) {
+      EXPECT_TRUE(found.insert(o.object).second);
+      EXPECT_FALSE(is_inside(small.cells, cell, ObjectId(o.object)));
+      n_single += o.kind == static_cast<std::uint32_t>(Representation::single_view);
+      n_triangles += o.n_triangles;
+    }
+    n_inside += small.cells.inside[index(cell)].size();
+    EXPECT_EQ(found.size() + small.cells.inside[index(cell)].size(), small.scene.objects.size());
+  }
+  for (const CentreId centre : bundle.manifest().centres)
+    n_texels += bundle.read_centre(centre).texels.size();
+  EXPECT_EQ(counts.n_single_view, n_single);
+  EXPECT_EQ(counts.n_inside, n_inside);
+  EXPECT_EQ(counts.n_single_view + counts.n_multi_view + counts.n_inside, 5 * small.list.size());
+  EXPECT_EQ(counts.n_triangles_outside, n_triangles);
+  EXPECT_EQ(counts.texel_bytes, 4 * n_texels);
+  EXPECT_EQ(counts.n_centres, bundle.manifest().centres.size());
+}
+
+// Offsets along the originals' normals give the derived positions back; triangles and their views
+// are the same set.
+TEST(Pack, GeometryIsTheDerivedMeshes) {
+  const SmallBake& small = shared_bake();
+  const Bundle bundle(shared_bundle());
+  for (const CellId cell : small.list) {
+    const CellGeometry g = bundle.read_cell(cell);
+    std::vector<CellMesh> meshes;
+    for (const fs::path& from : {small.inputs.svmesh, small.inputs.mvmesh})
+      for (CellMesh& m : read_weighted_meshes(from / weighted_mesh_name(cell), small.scene).meshes)
+        meshes.push_back(std::move(m));
+    ASSERT_EQ(meshes.size(), g.objects.size());
+    std::size_t v = 0, t = 0;
+    for (std::size_t m = 0; m < meshes.size(); ++m) {
+      const CellMesh& mesh = meshes[m];
+      const BundleObject& o = g.objects[m];
+      const SceneObject& object = small.scene.objects[static_cast<std::size_t>(o.object)];
+      const TriMesh& original = small.scene.mesh_of(object).mesh;
+      ASSERT_EQ(mesh.object, ObjectId(o.object));
+      ASSERT_EQ(mesh.source_vertex.size(), o.n_vertices);
+      ASSERT_EQ(mesh.triangles.size(), o.n_triangles);
+      std::map<std::uint32_t, glm::dvec3> position_of;
+      for (std::size_t i = 0; i < o.n_vertices; ++i)
+        position_of[mesh.source_vertex[i]] = mesh.vertices.positions[i];
+      for (std::size_t i = 0; i < o.n_vertices; ++i) {
+        const std::uint32_t source = g.source_vertices[v + i];
+        const glm::dvec3 n = object.rotation * glm::dvec3(original.normals[source]);
+        const glm::dvec3 p = object.world_from_model(glm::dvec3(original.positions[source])) +
+                             kOffsetUnit * g.offsets[v + i] * n;
+        ASSERT_LT(glm::distance(p, position_of.at(source)), kOffsetUnit);
+        for (int k = 0; k < 3; ++k) {
+          ASSERT_GE(position_of.at(source)[k], static_cast<double>(o.lo[k]));
+          ASSERT_LE(position_of.at(source)[k], static_cast<double>(o.hi[k]));
+        }
+      }
+      // By original vertices, the least first: turning a triangle keeps its winding.
+      using Face = std::pair<Triangle, std::uint8_t>;
+      const auto face = [](Triangle f, std::uint8_t views) {
+        std::rotate(f.begin(), std::min_element(f.begin(), f.end()), f.end());
+        return Face{f, views};
+      };
+      std::multiset<Face> packed, derived;
+      for (std::size_t i = 0; i < o.n_triangles; ++i) {
+        Triangle a{}, b{};
+        for (std::size_t k = 0; k < 3; ++k) {
+          a[k] = g.source_vertices[v + g.indices[3 * (t + i) + k]];
+          b[k] = mesh.source_vertex[mesh.triangles[i][k]];
+        }
+        packed.insert(face(a, g.views[t + i]));
+        derived.insert(face(b, mesh.views[i]));
+      }
+      ASSERT_EQ(packed, derived);
+      v += o.n_vertices, t += o.n_triangles;
+    }
+  }
+}
+
+// A single view is the cell's own centre; several are whatever its seven centres hold.
+TEST(Pack, EveryCentreHoldsTheTilesThatItsCellsNeed) {
+  const SmallBake& small = shared_bake();
+  const Bundle bundle(shared_bundle());
+  for (const CellId cell : small.list) {
+    const auto views = views_of(small.cells.grid, cell);
+    for (const BundleObject& o : bundle.read_cell(cell).objects)
+      for (std::size_t k = 0; k < (o.kind == 1 ? 1u : views.size()); ++k) {
+        ASSERT_TRUE(bundle.has(views[k]));
+        CentreCaptures captures(capture_file_of(small.inputs.captures, views[k]), small.settings);
+        const CentreTextures textures = bundle.read_centre(views[k]);
+        const auto has = std::any_of(textures.tiles.begin(), textures.tiles.end(),
+                                     [&](const BundleTile& t) { return t.object == o.object; });
+        EXPECT_EQ(has, captures.has(ObjectId(o.object)));
+      }
+  }
+}
+
+TEST(Pack, SameBytesForAnyNumberOfThreads) {
+  const SmallBake& small = shared_bake();
+  const TemporaryFolder folder;
+  pack_bundle(small.scene, small.cells, small.inputs, small.list, TextureFormat::rgba8,
+              test_provenance(), folder.path() / "one", 1, {});
+  for (const auto& entry : fs::recursive_directory_iterator(shared_bundle()))
+    if (entry.is_regular_file()) {
+      const fs::path relative = fs::relative(entry.path(), shared_bundle());
+      EXPECT_EQ(hash_file(entry.path()), hash_file(folder.path() / "one" / relative)) << relative;
+    }
+}
+
+TEST(Pack, RefusesMeshesThatDoNotBelongTogether) {
+  const MeshesCopy copy;
+  EXPECT_GT(copy.pack().n_multi_view, 0u);
+  ASSERT_TRUE(fs::exists(copy.bundle / kManifestName));
+  const auto drop = [](WeightedMeshes& m) { m.meshes.pop_back(); };
+  copy.refused(copy.inputs.mvmesh, drop, "is in 0 of");
+  copy.refused(
+      copy.inputs.mvmesh, [](auto& m) { m.captures = "0000"; }, "other captures");
+  copy.refused(
+      copy.inputs.svmesh, [](auto& m) { m.captures = "0000"; }, "other captures");
+  copy.refused(
+      copy.inputs.mvmesh, [](auto& m) { m.made_from = "0000"; }, "other options");
+  copy.refused(
+      copy.inputs.svmesh, [](auto& m) { m.made_from = "0000"; }, "other options");
+  copy.refused(
+      copy.inputs.svmesh, [](auto& m) { m.cell = CellId(3); }, "another cell");
+  copy.refused(
+      copy.inputs.svmesh, [](auto& m) { m.kind = Representation::multi_view; }, "other kind");
+  EXPECT_GT(copy.pack().n_multi_view, 0u);
+}
+
+TEST(Pack, RefusesAnObjectTwiceOrInside) {
+  const MeshesCopy copy;
+  const CellId cell = shared_bake().list[4];
+  const auto meshes =
+      read_weighted_meshes(copy.inputs.mvmesh / weighted_mesh_name(cell), shared_bake().scene);
+  copy.refused(
+      copy.inputs.svmesh, [&](WeightedMeshes& m) { m.meshes = {meshes.meshes.at(0)}; }, "is in ");
+  ASSERT_FALSE(shared_bake().cells.inside[index(cell)].empty());
+  const ObjectId inside = shared_bake().cells.inside[index(cell)][0];
+  CellMesh empty;
+  empty.object = inside;
+  copy.refused(
+      copy.inputs.svmesh,
+      [&](WeightedMeshes& m) {
+        std::erase_if(m.meshes, [&](const CellMesh& mesh) { return mesh.object >= inside; });
+        m.meshes.push_back(empty);
+      },
+      "is in ");
+}
+
+TEST(Pack, RefusesAMissingFileOrOtherCells) {
+  const MeshesCopy copy;
+  PackInputs inputs = copy.inputs;
+  inputs.captures = copy.folder.path() / "none";
+  EXPECT_INPUT_ERROR(shared_bake().pack(copy.bundle, inputs, shared_bake().list), "none");
+  inputs = copy.inputs;
+  inputs.cells_file = copy.folder.add("cells.json", "{}");
+  EXPECT_INPUT_ERROR(shared_bake().pack(copy.bundle, inputs, shared_bake().list), "captures");
+  fs::remove(copy.inputs.mvmesh / weighted_mesh_name(CellId(2)));
+  EXPECT_INPUT_ERROR(copy.pack(), "cell-00002.ply");
+  EXPECT_EQ(shared_bake().pack(copy.bundle, copy.inputs, {CellId(4)}).n_cells, 1u);
+}
+
+}  // namespace
+}  // namespace viewcell

@@ -1,0 +1,145 @@
+// A park of five objects and some nine cells, baked in a temporary folder.
+#pragma once
+
+#include "bake/derive.h"
+#include "bake/pack.h"
+#include "base/file.h"
+#include "capture/ray_capture.h"
+#include "capture/shapes.h"
+#include "image/fill.h"
+#include "mesh/io.h"
+#include "mesh/temporary_folder.h"
+
+namespace viewcell {
+
+inline const Json& test_provenance() {
+  static const Json json{{"tool", "test"}, {"version", "0"}, {"options", Json::object()}};
+  return json;
+}
+
+/// Spheres and noisy tori around eye height, in an area of 120 x 120.
+inline Scene make_bake_scene() {
+  Scene scene = make_scene_of(make_sphere(6, 40, 24));
+  scene.area = {{0, 0}, {120, 120}};
+  scene.materials.push_back({"bronze", {0.3f, 0.2f, 0.1f}, "", false});
+  scene.meshes[0].name = "sphere", scene.meshes[0].file = "sphere.ply";
+  SceneMesh torus;
+  torus.name = "torus", torus.file = "torus.ply";
+  torus.mesh = make_noisy_torus(48, 24, 0.05, 3);
+  torus.n_triangles = torus.mesh.triangles.size();
+  scene.meshes.push_back(std::move(torus));
+  scene.objects.clear();
+  const double places[5][2] = {{12, 15}, {62, 58}, {108, 20}, {22, 104}, {112, 110}};
+  Random random(5);
+  for (int i = 0; i < 5; ++i) {
+    SceneObject object;
+    object.name = "object " + std::to_string(i);
+    object.mesh = MeshId(i % 2);
+    object.material = i / 2 % 2;
+    object.scale = i % 2 ? 0.4 : 1;
+    object.translation = {places[i][0], places[i][1], 12 + i};
+    object.rotation = random_rotation(random);
+    scene.objects.push_back(object);
+  }
+  return scene;
+}
+
+/// Writes scene.json and its meshes; what read_scene makes of them.
+inline Scene write_scene(Scene scene, const std::filesystem::path& folder) {
+  for (SceneMesh& mesh : scene.meshes) {
+    write_ply(folder / mesh.file, mesh.mesh);
+    mesh.hash = hash_file(folder / mesh.file);
+  }
+  write_file(folder / "scene.json", format_json(format_scene(scene, test_provenance())));
+  return read_scene(folder / "scene.json");
+}
+
+/// One object from one eye, filled and classified.
+inline std::optional<ClassifiedView> classify_view(const Scene& scene, const RayCapture& rays,
+                                                   ObjectId object, const glm::dvec3& eye,
+                                                   const CaptureDensity& density, int view = 0) {
+  const auto viewed = choose_view(eye, world_points(scene, scene.objects[index(object)]), density);
+  if (!viewed) return {};
+  ClassifiedView out{view, rays.capture(object, viewed->view, viewed->crop), {}};
+  push_pull_fill(out.tile.color, out.tile.inverse_depth);
+  out.categories = classify_pixels(out.tile);
+  return out;
+}
+
+/// Captures and meshes of every cell; nothing is packed yet.
+struct SmallBake {
+  TemporaryFolder folder;
+  Scene scene = write_scene(make_bake_scene(), folder.path());
+  CellSet cells = make_cells(scene, 40, {});
+  BakeOptions options = make_options();
+  PackInputs inputs{folder.path() / "scene.json", folder.path() / "cells.json",
+                    folder.path() / "captures", folder.path() / "svmesh", folder.path() / "mvmesh"};
+  CaptureSettings settings;
+  std::vector<CellId> list;
+  BakeScene bake = build_bake_scene(scene, cells, 2);
+
+  static BakeOptions make_options() {
+    BakeOptions options;
+    options.ts_px = 20;  // so that both kinds occur
+    options.resolution_px = 256;
+    return options;
+  }
+
+  SmallBake() {
+    for (int i = 0; i < cells.grid.n_cells(); ++i) list.push_back(CellId(i));
+    write_file(inputs.cells_file, format_json(format_cells(cells, test_provenance())));
+    settings = {scene.hash, hash_file(inputs.cells_file), {.resolution_px = 256}, "embree"};
+    for (const auto& part : {inputs.captures, inputs.svmesh, inputs.mvmesh}) make_folder(part);
+    capture();
+    derive(Representation::single_view, inputs.svmesh);
+    derive(Representation::multi_view, inputs.mvmesh);
+  }
+
+  void capture() const {
+    const RayCapture rays(scene, 2);
+    const auto centres = centres_of(cells, list);
+    parallel_for(centres.size(), 2, [&](std::size_t i) {
+      std::vector<CaptureTile> tiles;
+      for (const ObjectId object : objects_seen_from(cells, centres[i]))
+        if (auto view =
+                classify_view(scene, rays, object, eye_of(cells, centres[i]), settings.density))
+          tiles.push_back(std::move(view->tile));
+      write_captures(capture_file_of(inputs.captures, centres[i]), tiles, settings);
+    });
+    write_file(inputs.captures / kCapturesManifest,
+               format_json(format_settings(settings, test_provenance())));
+  }
+
+  void derive(Representation kind, const std::filesystem::path& to) const {
+    parallel_for(list.size(), 2, [&](std::size_t i) {
+      DeriveCounts counts;
+      WeightedMeshes meshes =
+          derive_cell(bake, inputs.captures, settings, list[i], kind, options, counts);
+      meshes.made_from = "0123456789abcdef";
+      write_weighted_meshes(to / weighted_mesh_name(list[i]), meshes, "test");
+    });
+  }
+
+  PackCounts pack(const std::filesystem::path& bundle) const { return pack(bundle, inputs, list); }
+  PackCounts pack(const std::filesystem::path& bundle, const PackInputs& from,
+                  const std::vector<CellId>& which) const {
+    return pack_bundle(scene, cells, from, which, TextureFormat::rgba8, test_provenance(), bundle,
+                       2, {});
+  }
+};
+
+inline const SmallBake& shared_bake() {
+  static const SmallBake bake;
+  return bake;
+}
+
+/// The folder of its bundle.
+inline const std::filesystem::path& shared_bundle() {
+  static const std::filesystem::path bundle = [] {
+    shared_bake().pack(shared_bake().folder.path() / "bundle");
+    return shared_bake().folder.path() / "bundle";
+  }();
+  return bundle;
+}
+
+}  // namespace viewcell
