@@ -60,7 +60,7 @@ vec4 guarded_fetch(vec3 stq, ivec4 region, vec4 code) {
 const char* kTexturedMain = R"(
 void main() {
   vec4 sum = FETCHES;
-  bool is_seen = sum.w > 0.0001;
+  bool is_seen = sum.w > 0.02;
   color = vec4(is_seen ? sum.rgb / sum.w : lit, is_seen ? 1.0 : 254.0 / 255.0);
 }
 )";
