@@ -1,0 +1,165 @@
+#include "play/residency.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+
+#include "bake/small_bake.h"
+#include "gl_fixture.h"
+#include "mesh/expect_input_error.h"
+
+namespace viewcell {
+namespace {
+
+Camera camera_at(const CellSet& cells, CellId cell) {
+  Camera camera;
+  camera.eye = eye_of(cells, views_of(cells.grid, cell)[0]);
+  return camera;
+}
+
+std::size_t count_texels(const Bundle& bundle, CellId cell) {
+  std::size_t n = 0;
+  for (const CentreId centre : views_of(bundle.cells().grid, cell))
+    if (bundle.has(centre)) n += bundle.read_centre(centre).texels.size();
+  return n;
+}
+
+TEST(Residency, EnteredCellsAreWhole) {
+  const Bundle bundle(shared_bundle());
+  ResidencyOptions options;
+  options.pool_texels = 8u << 20;
+  options.prefetch = false;
+  Residency residency(shared_context().gl(), bundle, options);
+  for (const CellId cell : shared_bake().list) {
+    const ResidentCell& entered = residency.enter(camera_at(bundle.cells(), cell));
+    EXPECT_EQ(entered.ready->cell, cell);
+    ASSERT_EQ(entered.views.size(), entered.ready->objects.size());
+    ASSERT_EQ(entered.projections.size(), kViews * entered.views.size());
+    for (std::size_t slot = 0; slot < entered.views.size(); ++slot) {
+      if (entered.ready->objects[slot].kind == Representation::single_view) {
+        EXPECT_TRUE(entered.views[slot] & 1);
+      }
+      for (std::size_t k = 0; k < kViews; ++k)
+        EXPECT_EQ(entered.projections[slot * kViews + k].width_px > 0,
+                  (entered.views[slot] >> k & 1) != 0);
+    }
+  }
+  EXPECT_EQ(residency.n_stalls(), shared_bake().list.size());
+  check_gl(shared_context().gl(), "residency");
+}
+
+// s / q and t / q are the texels of the crop that the tile's own view projects the point to; the
+// code is that of its depth.
+TEST(Residency, ProjectionsAreTheViews) {
+  const Bundle bundle(shared_bundle());
+  ResidencyOptions options;
+  options.pool_texels = 8u << 20;
+  options.prefetch = false;
+  Residency residency(shared_context().gl(), bundle, options);
+  const CellId cell{4};
+  const ResidentCell& entered = residency.enter(camera_at(bundle.cells(), cell));
+  const auto views = views_of(bundle.cells().grid, cell);
+  int n_tested = 0;
+  for (std::size_t k = 0; k < views.size(); ++k) {
+    const CentreTextures textures = bundle.read_centre(views[k]);
+    for (std::size_t slot = 0; slot < entered.views.size(); ++slot) {
+      const ReadyObject& o = entered.ready->objects[slot];
+      const auto tile =
+          std::find_if(textures.tiles.begin(), textures.tiles.end(),
+                       [&](const BundleTile& t) { return ObjectId(t.object) == o.object; });
+      ASSERT_EQ(tile != textures.tiles.end(), (entered.views[slot] >> k & 1) != 0);
+      if (tile == textures.tiles.end()) continue;
+      CaptureView view;
+      for (int c = 0; c < 3; ++c) {
+        view.eye[c] = tile->eye[c], view.right[c] = tile->right[c];
+        view.up[c] = tile->up[c], view.forward[c] = tile->forward[c];
+      }
+      view.focal_px = tile->focal_px, view.source_px = tile->source_px;
+      const ViewProjection& p = entered.projections[slot * kViews + k];
+      for (std::uint32_t i = 0; i < o.n_indices; i += 17) {
+        const glm::vec3 local =
+            entered.ready->vertices[entered.ready->indices[o.first_index + i]].position;
+        const glm::dvec3 expected = view.project(entered.ready->origin + glm::dvec3(local));
+        const glm::vec4 at(local, 1);
+        const double q = glm::dot(p.row_q, at);
+        ASSERT_NEAR(q, expected.z, 1e-4 * expected.z);
+        ASSERT_NEAR(glm::dot(p.row_s, at) / q, expected.x - tile->x, 0.01);
+        ASSERT_NEAR(glm::dot(p.row_t, at) / q, expected.y - tile->y, 0.01);
+        const double code = (tile->code_scale / expected.z + tile->code_bias) / 255;
+        ASSERT_NEAR(static_cast<double>(p.code_scale) / q + static_cast<double>(p.code_bias), code,
+                    2e-3);
+        ++n_tested;
+      }
+    }
+  }
+  EXPECT_GT(n_tested, 100);
+}
+
+TEST(Residency, CellsThatAreNotThereAreRefused) {
+  const SmallBake& small = shared_bake();
+  const TemporaryFolder folder;
+  small.pack(folder.path() / "bundle", small.inputs, {CellId(4)});
+  const Bundle bundle(folder.path() / "bundle");
+  Residency residency(shared_context().gl(), bundle, {8u << 20});
+  EXPECT_EQ(residency.enter(camera_at(bundle.cells(), CellId(4))).ready->cell, CellId(4));
+  EXPECT_INPUT_ERROR(residency.enter(camera_at(bundle.cells(), CellId(5))), "cell 5");
+  Camera away;
+  away.eye = {-500, 0, 18};
+  EXPECT_INPUT_ERROR(residency.enter(away), "leaves the grid");
+  EXPECT_EQ(residency.enter(camera_at(bundle.cells(), CellId(4))).ready->cell, CellId(4));
+}
+
+TEST(Residency, APoolTooSmallForOneCellIsTheMachinesFault) {
+  const Bundle bundle(shared_bundle());
+  const auto n = static_cast<std::uint32_t>(count_texels(bundle, CellId(4)));
+  for (const bool prefetch : {false, true}) {
+    ResidencyOptions options;
+    options.pool_texels = n - 1, options.prefetch = prefetch;
+    Residency small(shared_context().gl(), bundle, options);
+    EXPECT_THROW(small.enter(camera_at(bundle.cells(), CellId(4))), MachineError);
+    options.pool_texels = n;
+    Residency enough(shared_context().gl(), bundle, options);
+    EXPECT_EQ(enough.enter(camera_at(bundle.cells(), CellId(4))).ready->cell, CellId(4));
+    EXPECT_EQ(enough.texture_bytes(), 4 * std::size_t{n});
+  }
+}
+
+// Neighbours come while the eye dwells; then crossing the border waits for nothing.
+TEST(Residency, WalkingSlowlyStallsOnce) {
+  const Bundle bundle(shared_bundle());
+  Residency residency(shared_context().gl(), bundle, {16u << 20});
+  const CellSet& cells = bundle.cells();
+  const glm::dvec3 from = camera_at(cells, CellId(4)).eye;
+  const CellId to = *cell_at(cells.grid, neighbour(place_of(cells.grid, CellId(4)), 0));
+  std::set<CellId> entered;
+  for (int k = 0; k <= 60; ++k) {
+    Camera camera;
+    camera.eye = glm::mix(from, camera_at(cells, to).eye, k / 60.0);
+    entered.insert(residency.enter(camera).ready->cell);
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  EXPECT_EQ(entered.size(), 2u);
+  EXPECT_EQ(residency.n_stalls(), 1u);
+}
+
+// Walking to and fro with room for one cell and a little more must end in whole cells still.
+TEST(Residency, EvictsInsteadOfFailing) {
+  const Bundle bundle(shared_bundle());
+  std::size_t most = 0;
+  for (const CellId cell : shared_bake().list) most = std::max(most, count_texels(bundle, cell));
+  ResidencyOptions options;
+  options.pool_texels = static_cast<std::uint32_t>(2 * most);
+  options.prefetch = false;
+  options.n_cells = 2;
+  Residency residency(shared_context().gl(), bundle, options);
+  Random random(2);
+  for (int k = 0; k < 40; ++k) {
+    const CellId cell =
+        shared_bake().list[random.below(static_cast<std::uint32_t>(shared_bake().list.size()))];
+    ASSERT_EQ(residency.enter(camera_at(bundle.cells(), cell)).ready->cell, cell);
+    ASSERT_LE(residency.texture_bytes(), 4 * std::size_t{options.pool_texels});
+  }
+}
+
+}  // namespace
+}  // namespace viewcell
