@@ -1,4 +1,4 @@
-// One GL context for all tests of the program.
+// One GL context for all tests of the program but those that make a player, which has its own.
 #pragma once
 
 #include "gl/context.h"
@@ -8,7 +8,8 @@
 namespace viewcell {
 
 inline const GlContext& shared_context() {
-  static const GlContext context(GlEngine::kOsmesa);
+  static GlContext context(GlEngine::kOsmesa);
+  context.make_current();  // again, after a player's
   return context;
 }
 

@@ -1,0 +1,158 @@
+#include <gtest/gtest.h>
+
+#include "bake/small_bake.h"
+#include "image/metrics.h"
+#include "play/player.h"
+
+namespace viewcell {
+namespace {
+
+constexpr int kSize = 256;
+
+struct Stage {
+  Bundle bundle{shared_bundle()};
+  Player player{bundle, make_options()};
+  static PlayerOptions make_options() {
+    PlayerOptions options;
+    options.width_px = options.height_px = kSize;
+    options.residency.pool_texels = 16u << 20;
+    return options;
+  }
+  ImageRgba8 draw(Mode mode, const Camera& camera) {
+    player.draw(mode, camera);
+    return player.read(mode);
+  }
+  // Eyes all over the cells, looking at an object.
+  Camera random_camera(Random& random) const {
+    const CellSet& cells = bundle.cells();
+    const auto objects = static_cast<std::uint32_t>(bundle.scene().objects.size());
+    for (;;) {
+      Camera camera;
+      camera.eye = {random.uniform(0, 120), random.uniform(0, 120), random.uniform(16, 20)};
+      const glm::dvec3 to = bundle.scene().objects[random.below(objects)].translation - camera.eye;
+      const auto cell = cell_at(cells.grid, place_at(cells.grid, glm::dvec2(camera.eye)));
+      if (!cell || glm::length(to) < 45) continue;
+      camera.forward = glm::normalize(to);
+      return camera;
+    }
+  }
+};
+
+std::size_t count_alpha(const ImageRgba8& image, int alpha) {
+  return static_cast<std::size_t>(std::count_if(image.pixels.begin(), image.pixels.end(),
+                                                [&](const Rgba8& p) { return p[3] == alpha; }));
+}
+
+// No pixel that frustum covers lies more than 2 px away from one that hybrid covers, nor the other
+// way round.
+int count_uncovered(const ImageRgba8& a, const ImageRgba8& b) {
+  int n = 0;
+  for (int y = 2; y < kSize - 2; ++y)
+    for (int x = 2; x < kSize - 2; ++x) {
+      if (a.at(x, y)[3] == 0) continue;
+      bool covered = false;
+      for (int j = -2; j <= 2; ++j)
+        for (int i = -2; i <= 2; ++i) covered |= b.at(x + i, y + j)[3] != 0;
+      n += !covered;
+    }
+  return n;
+}
+
+TEST(HybridFrame, LooksLikeTheOriginals) {
+  Stage stage;
+  Random random(31);
+  double mean_db = 0;
+  std::size_t n_textured = 0, n_lit = 0;
+  constexpr int kFrames = 24;
+  for (int k = 0; k < kFrames; ++k) {
+    SCOPED_TRACE(k);
+    const Camera camera = stage.random_camera(random);
+    const ImageRgba8 original = stage.draw(Mode::frustum, camera);
+    const ImageRgba8 hybrid = stage.draw(Mode::hybrid, camera);
+    const ImageDistance distance = compare_images(original, hybrid, {false});
+    EXPECT_GT(distance.n_covered, 200u);
+    EXPECT_GT(distance.psnr_covered_db, 24);
+    EXPECT_GT(distance.psnr_db, 34);
+    EXPECT_EQ(count_uncovered(original, hybrid), 0);
+    EXPECT_EQ(count_uncovered(hybrid, original), 0);
+    EXPECT_EQ(count_alpha(hybrid, 0) + count_alpha(hybrid, 254) + count_alpha(hybrid, 255),
+              hybrid.pixels.size());
+    n_textured += count_alpha(hybrid, 255), n_lit += count_alpha(hybrid, 254);
+    mean_db += distance.psnr_covered_db / kFrames;
+  }
+  EXPECT_GT(mean_db, 30);
+  EXPECT_LT(n_lit, 0.02 * static_cast<double>(n_textured));
+}
+
+TEST(HybridFrame, DrawsFewerTriangles) {
+  Stage stage;
+  Random random(32);
+  std::size_t n_hybrid = 0, n_frustum = 0;
+  for (int k = 0; k < 10; ++k) {
+    const Camera camera = stage.random_camera(random);
+    n_frustum += stage.player.draw(Mode::frustum, camera).n_triangles;
+    n_hybrid += stage.player.draw(Mode::hybrid, camera).n_triangles;
+  }
+  EXPECT_LT(2 * n_hybrid, n_frustum);
+}
+
+// Whatever was drawn before, and by a player of its own.
+TEST(HybridFrame, SameBytesWhenDrawnAgain) {
+  Random random(33);
+  std::vector<Camera> cameras;
+  std::vector<ImageRgba8> first;
+  for (int pass = 0; pass < 2; ++pass) {
+    Stage stage;  // one at a time: a context is current only until the next is made
+    for (int k = 0; k < 8 && pass == 0; ++k) {
+      cameras.push_back(stage.random_camera(random));
+      first.push_back(stage.draw(Mode::hybrid, cameras.back()));
+    }
+    for (std::size_t k = 8; k-- > 0;)
+      EXPECT_TRUE(stage.draw(Mode::hybrid, cameras[k]).pixels == first[k].pixels) << k;
+  }
+}
+
+// At the centre of a cell each pixel is fetched from where it was captured: nearly the original.
+TEST(HybridFrame, AtACentreTheCaptureComesBack) {
+  Stage stage;
+  const CellSet& cells = stage.bundle.cells();
+  for (const CellId cell : shared_bake().list) {
+    Camera camera;
+    camera.eye = eye_of(cells, views_of(cells.grid, cell)[0]);
+    for (const SceneObject& object : stage.bundle.scene().objects) {
+      const glm::dvec3 to = object.translation - camera.eye;
+      if (glm::length(to) < 60) continue;
+      camera.forward = glm::normalize(to);
+      const ImageRgba8 original = stage.draw(Mode::frustum, camera);
+      const ImageRgba8 hybrid = stage.draw(Mode::hybrid, camera);
+      EXPECT_GT(compare_images(original, hybrid, {false}).psnr_covered_db, 26) << int(cell);
+    }
+  }
+}
+
+TEST(HybridFrame, KindsAndWireframesDrawTheSamePixels) {
+  Stage stage;
+  Random random(34);
+  for (int k = 0; k < 5; ++k) {
+    const Camera camera = stage.random_camera(random);
+    const ImageRgba8 hybrid = stage.draw(Mode::hybrid, camera);
+    const ImageRgba8 kinds = stage.player.draw_kinds(camera, HybridStyle::kinds);
+    const ImageRgba8 wires = stage.player.draw_kinds(camera, HybridStyle::wireframe);
+    std::size_t n_dark = 0, n_differ = 0;
+    for (std::size_t i = 0; i < hybrid.pixels.size(); ++i) {
+      ASSERT_EQ(hybrid.pixels[i][3] == 0, kinds.pixels[i][3] == 0);
+      n_differ += hybrid.pixels[i] != kinds.pixels[i];
+      n_dark += kinds.pixels[i] != wires.pixels[i];
+    }
+    EXPECT_GT(n_differ, 100u);
+    EXPECT_GT(n_dark, 20u);
+  }
+  // State is left as it was found.
+  const Camera camera = stage.random_camera(random);
+  const ImageRgba8 before = stage.draw(Mode::frustum, camera);
+  stage.player.draw_kinds(camera, HybridStyle::wireframe);
+  EXPECT_EQ(stage.draw(Mode::frustum, camera).pixels, before.pixels);
+}
+
+}  // namespace
+}  // namespace viewcell
