@@ -8,6 +8,7 @@
 #include "base/file.h"
 #include "base/section_file.h"
 #include "base/srgb.h"
+#include "image/bc.h"
 #include "image/half.h"
 
 namespace viewcell {
@@ -144,12 +145,65 @@ CellGeometry Bundle::read_cell(CellId cell) const {
   return g;
 }
 
+namespace {
+
+// A tile's texels as BC3 blocks and back; tiles lie one after another, without gaps.
+std::vector<std::uint8_t> encode_tiles(const CentreTextures& t) {
+  std::vector<std::uint8_t> blocks;
+  for (const BundleTile& tile : t.tiles) {
+    ImageRgba8 image(tile.width_px, tile.height_px);
+    std::copy_n(t.texels.begin() + static_cast<std::ptrdiff_t>(tile.first_texel),
+                image.pixels.size(), image.pixels.begin());
+    const BlockImage encoded = encode_blocks(image, BlockFormat::bc3);
+    blocks.insert(blocks.end(), encoded.blocks.begin(), encoded.blocks.end());
+  }
+  return blocks;
+}
+
+// The bytes of all tiles' blocks, and in n_texels their texels.
+std::uint64_t measure_blocks(const CentreTextures& t, std::uint64_t& n_texels) {
+  std::uint64_t n_bytes = 0;
+  for (const BundleTile& tile : t.tiles) {
+    n_bytes += block_bytes(BlockFormat::bc3, tile.width_px, tile.height_px);
+    n_texels +=
+        static_cast<std::uint64_t>(tile.width_px) * static_cast<std::uint64_t>(tile.height_px);
+  }
+  return n_bytes;
+}
+
+void decode_tiles(const std::vector<std::uint8_t>& blocks, CentreTextures& t) {
+  auto from = blocks.begin();
+  for (const BundleTile& tile : t.tiles) {
+    BlockImage encoded{BlockFormat::bc3, tile.width_px, tile.height_px, {}};
+    const auto n =
+        static_cast<std::ptrdiff_t>(block_bytes(BlockFormat::bc3, tile.width_px, tile.height_px));
+    encoded.blocks.assign(from, from + n);
+    from += n;
+    const ImageRgba8 image = decode_blocks(encoded);
+    std::copy(image.pixels.begin(), image.pixels.end(),
+              t.texels.begin() + static_cast<std::ptrdiff_t>(tile.first_texel));
+  }
+}
+
+}  // namespace
+
 CentreTextures Bundle::read_centre(CentreId centre) const {
   const SectionReader reader(centre_file(folder_, centre), kCentreKind);
   CentreTextures t;
   t.tiles = reader.read<BundleTile>("TILES");
-  t.texels = reader.read<Rgba8>("TEXELS");
-  check_tiles(t, t.texels.size(), scene_, reader);
+  if (manifest_.texture_format == TextureFormat::rgba8) {
+    t.texels = reader.read<Rgba8>("TEXELS");
+    check_tiles(t, t.texels.size(), scene_, reader);
+    return t;
+  }
+  const auto blocks = reader.read<std::uint8_t>("BC3");
+  check_tiles(t, ~std::uint64_t{0} >> 1, scene_, reader);  // sizes, before they are multiplied
+  std::uint64_t n_texels = 0;
+  if (measure_blocks(t, n_texels) != blocks.size())
+    reader.fail("BC3", "is not as long as its tiles say");
+  check_tiles(t, n_texels, scene_, reader);
+  t.texels.resize(n_texels);
+  decode_tiles(blocks, t);
   return t;
 }
 
@@ -163,10 +217,13 @@ void write_cell_geometry(const fs::path& file, const CellGeometry& g) {
   writer.write(file);
 }
 
-void write_centre_textures(const fs::path& file, const CentreTextures& t, TextureFormat) {
+void write_centre_textures(const fs::path& file, const CentreTextures& t, TextureFormat format) {
   SectionWriter writer(kCentreKind);
   writer.add("TILES", t.tiles);
-  writer.add("TEXELS", t.texels);
+  if (format == TextureFormat::bc3)
+    writer.add("BC3", encode_tiles(t));
+  else
+    writer.add("TEXELS", t.texels);
   writer.write(file);
 }
 

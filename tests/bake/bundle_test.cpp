@@ -118,6 +118,30 @@ TEST(Bundle, TexturesReadBack) {
   }
 }
 
+TEST(Bundle, CompressedTexturesReadBackNearly) {
+  const BundleCopy copy;
+  std::string manifest = read_file(copy.path / kManifestName);
+  const std::size_t at = manifest.find("rgba8");
+  ASSERT_NE(at, std::string::npos);
+  write_file(copy.path / kManifestName, manifest.replace(at, 5, "bc3"));
+  const Bundle bundle(copy.path);
+  const CentreTextures made = make_textures();
+  write_centre_textures(centre_file(copy.path, CentreId(4)), made, TextureFormat::bc3);
+  const CentreTextures read = bundle.read_centre(CentreId(4));
+  ASSERT_EQ(read.texels.size(), made.texels.size());
+  for (std::size_t i = 0; i < made.texels.size(); ++i)
+    for (std::size_t k = 0; k < 4; ++k)
+      EXPECT_NEAR(read.texels[i][k], made.texels[i][k], 8) << i << " " << k;
+  // Textures of the other format, and blocks that are fewer than the tiles need.
+  write_centre_textures(centre_file(copy.path, CentreId(4)), made, TextureFormat::rgba8);
+  EXPECT_INPUT_ERROR(bundle.read_centre(CentreId(4)), "BC3");
+  CentreTextures wider = made;
+  wider.texels.resize(1000);
+  wider.tiles[1].width_px = 60;
+  write_centre_textures(centre_file(copy.path, CentreId(4)), wider, TextureFormat::bc3);
+  EXPECT_NO_THROW(bundle.read_centre(CentreId(4)));
+}
+
 TEST(Bundle, EveryTileIsChecked) {
   const BundleCopy copy;
   const Bundle bundle(copy.path);

@@ -21,9 +21,9 @@ void declare(Tool& tool, Options& options) {
   app.add_option("mvmesh", options.inputs.mvmesh, "folder of MVMeshes")->required();
   app.add_option("--cells", options.cell_list, "all | 3,7,10-19 | @FILE | path:path.json")
       ->capture_default_str();
-  app.add_option("--textures", options.texture_format, "rgba8 | bc3")
+  app.add_option("--textures", options.texture_format, "rgba8 | bc3 (a quarter of the disk)")
       ->capture_default_str()
-      ->check(CLI::IsMember({"rgba8"}));
+      ->check(CLI::IsMember({"rgba8", "bc3"}));
   tool.add_output("folder of the bundle to write");
 }
 
