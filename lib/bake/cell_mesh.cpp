@@ -13,10 +13,6 @@
 namespace viewcell {
 namespace {
 
-double focal_of(int resolution_px) {
-  return 0.5 * resolution_px / std::tan(glm::radians(30.0));
-}
-
 // The ball around the cell's prism.
 struct Ball {
   glm::dvec3 centre{0};
@@ -40,7 +36,7 @@ const StartLevel& choose_start(const BakeScene& bake, CellId cell, ObjectId id,
   const Ball ball = ball_of(bake.cells, cell);
   const double distance =
       std::max(distance_to(bake.boxes[index(id)], ball.centre) - ball.radius, bake.cells.near);
-  const double px_per_unit = focal_of(options.resolution_px) / distance * object.scale;
+  const double px_per_unit = focal_of_face(options.resolution_px) / distance * object.scale;
   const auto& levels = bake.levels[index(object.mesh)];
   std::size_t best = 0;
   for (std::size_t i = 1; i < levels.size(); ++i)
@@ -86,7 +82,7 @@ ViewMetricOptions make_metric_options(const BakeScene& bake, CellId cell, Repres
   metric.centre = ball.centre;
   metric.radius = ball.radius;
   metric.samples = sample_cell(bake.cells, cell);
-  metric.focal_px = focal_of(options.resolution_px);
+  metric.focal_px = focal_of_face(options.resolution_px);
   metric.keep_common_views = kind == Representation::multi_view;
   metric.tl_px = options.tl_px;
   metric.max_drift_px = options.max_drift_px;

@@ -50,12 +50,6 @@ void set_uniform(const Gl& gl, const GlProgram& program, const char* name, const
   gl.ProgramUniform3fv(program.id(), program.uniform(name), 1, glm::value_ptr(v));
 }
 
-void set_attribute(const Gl& gl, const GlVertexArray& array, GLuint place, std::size_t offset) {
-  gl.EnableVertexArrayAttrib(array.id(), place);
-  gl.VertexArrayAttribBinding(array.id(), place, 0);
-  gl.VertexArrayAttribFormat(array.id(), place, 3, GL_FLOAT, GL_FALSE, static_cast<GLuint>(offset));
-}
-
 const Material& material_of(const Scene& scene, const SceneObject& object) {
   return scene.materials[static_cast<std::size_t>(object.material)];
 }
@@ -113,8 +107,8 @@ const RasterCapture::GpuMesh& RasterCapture::upload(MeshId id) {
               static_cast<GLsizei>(3 * mesh.triangles.size())};
   gl_.VertexArrayVertexBuffer(gpu.array.id(), 0, gpu.vertices.id(), 0, sizeof(Vertex));
   gl_.VertexArrayElementBuffer(gpu.array.id(), gpu.indices.id());
-  set_attribute(gl_, gpu.array, 0, offsetof(Vertex, position));
-  set_attribute(gl_, gpu.array, 1, offsetof(Vertex, normal));
+  gpu.array.set_attribute(0, 3, GL_FLOAT, GL_FALSE, offsetof(Vertex, position));
+  gpu.array.set_attribute(1, 3, GL_FLOAT, GL_FALSE, offsetof(Vertex, normal));
   check_gl(gl_, "uploading a mesh to capture");
   return slot.emplace(std::move(gpu));
 }

@@ -6,11 +6,10 @@
 namespace viewcell {
 namespace {
 
-// A face width spans 60 degrees seen from the cell's centre. A far object's source image has as
-// many pixels and a narrower angle.
+// A far object's source image has as many pixels and a narrower angle.
 double focal_of(const glm::dvec3& eye, std::span<const glm::dvec3> points,
                 const CaptureDensity& density) {
-  const double focal = 0.5 * density.resolution_px / std::tan(glm::radians(30.0));
+  const double focal = focal_of_face(density.resolution_px);
   const double squared = density.far_distance * density.far_distance;
   const bool is_far = std::all_of(points.begin(), points.end(), [&](const glm::dvec3& p) {
     return glm::dot(p - eye, p - eye) > squared;
@@ -63,6 +62,10 @@ glm::dvec3 middle_of(std::span<const glm::dvec3> points) {
 }
 
 }  // namespace
+
+double focal_of_face(int resolution_px) {
+  return 0.5 * resolution_px / std::tan(glm::radians(30.0));
+}
 
 std::optional<ViewedObject> choose_view(const glm::dvec3& eye, std::span<const glm::dvec3> points,
                                         const CaptureDensity& density) {

@@ -53,7 +53,7 @@ void check_cells_of_scene(const CellSet& cells, const Scene& scene,
 std::vector<CellId> select_cells(const CellSet& cells, const std::string& list,
                                  const std::string& slice = "");
 
-/// The cells whose captures or meshes those cells need: their closed neighbourhoods' centres.
+/// The centres whose captures those cells need: of their closed neighbourhoods, ascending.
 std::vector<CentreId> centres_of(const CellSet& cells, const std::vector<CellId>& list);
 
 }  // namespace viewcell

@@ -145,4 +145,11 @@ GlProgram::GlProgram(const Gl& gl, const std::string& name, const std::string& v
 GlVertexArray::GlVertexArray(const Gl& gl)
     : GlObject(gl, delete_vertex_array, create(gl.CreateVertexArrays)) {}
 
+void GlVertexArray::set_attribute(GLuint place, GLint n, GLenum type, GLboolean normalised,
+                                  std::size_t offset) const {
+  gl().EnableVertexArrayAttrib(id(), place);
+  gl().VertexArrayAttribBinding(id(), place, 0);
+  gl().VertexArrayAttribFormat(id(), place, n, type, normalised, static_cast<GLuint>(offset));
+}
+
 }  // namespace viewcell

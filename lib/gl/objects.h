@@ -92,12 +92,16 @@ class GlProgram : public GlObject {
   GLint uniform(const char* name) const { return gl().GetUniformLocation(id(), name); }
 };
 
-/// A vertex array object, filled by the caller through glVertexArray*.
+/// A vertex array object; buffers are attached by the caller through glVertexArray*.
 class GlVertexArray : public GlObject {
  public:
   GlVertexArray() = default;
   explicit GlVertexArray(const Gl& gl);
   void bind() const { gl().BindVertexArray(id()); }
+  /// Attribute `place`: n values of a type from buffer binding 0, `offset` bytes into each vertex.
+  /// normalised: integers become [-1, 1] or [0, 1].
+  void set_attribute(GLuint place, GLint n, GLenum type, GLboolean normalised,
+                     std::size_t offset) const;
 };
 
 }  // namespace viewcell

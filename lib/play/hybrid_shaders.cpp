@@ -33,7 +33,8 @@ std::string varyings(const std::string& direction, int n_views) {
 
 // Four texels around the point, weighted bilinearly and by how near their depth is to the
 // fragment's own: with x = difference / tolerance, 1 / (1 + x^8), all but a step. Where no texel is
-// within the tolerance the nearest in depth wins. Returns colour times weight, and the weight.
+// within the tolerance the nearest in depth wins, unless all are far off (kTexturedMain). Returns
+// colour times weight, and the weight.
 const char* kGuardedFetch = R"(
 layout(binding = 0) uniform samplerBuffer texels;
 vec4 guarded_fetch(vec3 stq, ivec4 region, vec4 code) {
@@ -56,7 +57,8 @@ vec4 guarded_fetch(vec3 stq, ivec4 region, vec4 code) {
 }
 )";
 
-// Below this weight the views say nothing of the fragment.
+// Below this weight, at about 1.6 tolerances from every texel, the views say nothing of the
+// fragment.
 const char* kTexturedMain = R"(
 void main() {
   vec4 sum = FETCHES;

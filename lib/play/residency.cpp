@@ -14,17 +14,6 @@ namespace {
 constexpr double kMoved = 0.1;
 const double kTurnedCosine = std::cos(glm::radians(10.0));
 
-void set_vertex_format(const Gl& gl, GLuint array) {
-  const auto set = [&](GLuint place, GLint n, GLenum type, std::size_t offset) {
-    gl.EnableVertexArrayAttrib(array, place);
-    gl.VertexArrayAttribBinding(array, place, 0);
-    gl.VertexArrayAttribFormat(array, place, n, type, type == GL_SHORT,
-                               static_cast<GLuint>(offset));
-  };
-  set(0, 3, GL_FLOAT, offsetof(HybridVertex, position));
-  set(1, 3, GL_SHORT, offsetof(HybridVertex, normal));
-}
-
 ResidentCell upload_cell(const Gl& gl, std::shared_ptr<const ReadyCell> ready) {
   ResidentCell cell;
   cell.vertices = make_buffer(gl, ready->vertices);
@@ -32,7 +21,8 @@ ResidentCell upload_cell(const Gl& gl, std::shared_ptr<const ReadyCell> ready) {
   cell.array = GlVertexArray(gl);
   gl.VertexArrayVertexBuffer(cell.array.id(), 0, cell.vertices.id(), 0, sizeof(HybridVertex));
   gl.VertexArrayElementBuffer(cell.array.id(), cell.indices.id());
-  set_vertex_format(gl, cell.array.id());
+  cell.array.set_attribute(0, 3, GL_FLOAT, GL_FALSE, offsetof(HybridVertex, position));
+  cell.array.set_attribute(1, 3, GL_SHORT, GL_TRUE, offsetof(HybridVertex, normal));
   cell.ready = std::move(ready);
   return cell;
 }

@@ -61,13 +61,6 @@ Vertex make_vertex(const glm::vec3& position, const glm::vec3& normal) {
   return {position, {quantise(normal.x), quantise(normal.y), quantise(normal.z), 0}};
 }
 
-void set_attribute(const Gl& gl, const GlVertexArray& array, GLuint place, GLint n, GLenum type,
-                   GLboolean normalised, std::size_t offset) {
-  gl.EnableVertexArrayAttrib(array.id(), place);
-  gl.VertexArrayAttribBinding(array.id(), place, 0);
-  gl.VertexArrayAttribFormat(array.id(), place, n, type, normalised, static_cast<GLuint>(offset));
-}
-
 }  // namespace
 
 SceneRenderer::SceneRenderer(const Gl& gl, const Scene& scene,
@@ -90,7 +83,7 @@ SceneRenderer::SceneRenderer(const Gl& gl, const Scene& scene,
       glm::vec2(-kGroundReach, kGroundReach), glm::vec2(kGroundReach, kGroundReach)};
   ground_vertices_ = make_buffer(gl, corners);
   gl.VertexArrayVertexBuffer(ground_array_.id(), 0, ground_vertices_.id(), 0, sizeof(glm::vec2));
-  set_attribute(gl, ground_array_, 0, 2, GL_FLOAT, GL_FALSE, 0);
+  ground_array_.set_attribute(0, 2, GL_FLOAT, GL_FALSE, 0);
   ground_centre_ = ground_centre(scene);
   const glm::vec3 sky = srgb_encode(scene.lighting.sky_color);
   sky_ = {sky.x, sky.y, sky.z, 0};
@@ -120,8 +113,8 @@ void SceneRenderer::upload(const std::vector<MeshLevels>& levels) {
   indices_ = make_buffer(gl_, triangles);
   gl_.VertexArrayVertexBuffer(array_.id(), 0, vertices_.id(), 0, sizeof(Vertex));
   gl_.VertexArrayElementBuffer(array_.id(), indices_.id());
-  set_attribute(gl_, array_, 0, 3, GL_FLOAT, GL_FALSE, offsetof(Vertex, position));
-  set_attribute(gl_, array_, 1, 3, GL_SHORT, GL_TRUE, offsetof(Vertex, normal));
+  array_.set_attribute(0, 3, GL_FLOAT, GL_FALSE, offsetof(Vertex, position));
+  array_.set_attribute(1, 3, GL_SHORT, GL_TRUE, offsetof(Vertex, normal));
 }
 
 SceneRenderer::Program SceneRenderer::make_program(const Lighting& lighting,
