@@ -1,5 +1,6 @@
 #include "play/hybrid_renderer.h"
 
+#include <algorithm>
 #include <cstring>
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/type_ptr.hpp>
@@ -28,28 +29,44 @@ std::size_t uniform_alignment(const Gl& gl) {
   return static_cast<std::size_t>(alignment);
 }
 
-GlProgram make_program(const Gl& gl, const char* name, int n_views, const Lighting& lighting,
-                       const HybridOptions& options) {
+GlProgram make_program(const Gl& gl, const char* name, int n_views, const Lighting& lighting) {
   return GlProgram(gl, name, make_hybrid_vertex_glsl(n_views, lighting),
-                   make_hybrid_fragment_glsl(n_views, options.depth_tolerance));
+                   make_hybrid_fragment_glsl(n_views));
+}
+
+glm::vec3 middle_of(const ReadyObject& object) {
+  return 0.5f * (object.lo + object.hi);
 }
 
 }  // namespace
 
+float depth_tolerance(const ViewProjection& view, const glm::vec3& eye, const glm::vec3& middle,
+                      const HybridOptions& options) {
+  // The code is linear in 1 / depth. A point z away that moves by z^2 along a ray of the view
+  // changes 1 / z by 1, and the eye, d away, sees this under the sine aside / d.
+  const glm::vec3 ray = middle - view.eye;
+  const float d2 = std::max(glm::dot(middle - eye, middle - eye), 1e-3f);
+  const float aside_z = std::max(glm::length(glm::cross(ray, eye - view.eye)), 1e-3f);
+  const float shift_px = view.focal_px * aside_z * glm::length(ray) / d2;  // of a change of 1
+  return std::max(options.depth_tolerance, options.shift_px * view.code_scale / shift_px);
+}
+
 HybridRenderer::HybridRenderer(const Gl& gl, const Scene& scene, const HybridOptions& options)
     : gl_(gl),
       scene_(scene),
-      two_views_(make_program(gl, "two views", 2, scene.lighting, options)),
-      one_view_(make_program(gl, "one view", 1, scene.lighting, options)),
-      lit_(make_program(gl, "lit mesh", 0, scene.lighting, options)),
+      options_(options),
+      two_views_(make_program(gl, "two views", 2, scene.lighting)),
+      one_view_(make_program(gl, "one view", 1, scene.lighting)),
+      lit_(make_program(gl, "lit mesh", 0, scene.lighting)),
       edges_(gl, "edges", make_hybrid_vertex_glsl(0, scene.lighting), make_edge_fragment_glsl()) {
   const std::size_t alignment = uniform_alignment(gl);
   block_stride_ = (sizeof(DrawBlock) + alignment - 1) / alignment * alignment;
 }
 
 void HybridRenderer::upload_blocks(const ResidentCell& cell, const HybridPlan& plan,
-                                   HybridStyle style) {
+                                   const glm::vec3& eye, HybridStyle style) {
   staged_.assign(plan.outside.size() * block_stride_, 0);
+  const glm::vec3 origin(cell.ready->origin);
   char* to = staged_.data();
   const auto stage = [&](const HybridDraw& draw) {
     const ReadyObject& ready = cell.ready->objects[draw.slot];
@@ -69,7 +86,8 @@ void HybridRenderer::upload_blocks(const ResidentCell& cell, const HybridPlan& p
                                                  static_cast<std::size_t>(draw.views.view[i])];
       block.rows[3 * i] = p.row_s, block.rows[3 * i + 1] = p.row_t, block.rows[3 * i + 2] = p.row_q;
       block.regions[i] = {p.first_texel, p.width_px, p.height_px, 0};
-      block.codes[i] = {p.code_scale, p.code_bias, 0, 0};
+      block.codes[i] = {p.code_scale, p.code_bias,
+                        1 / depth_tolerance(p, eye, middle_of(ready) - origin, options_), 0};
     }
     std::memcpy(to, &block, sizeof block);
     to += block_stride_;
@@ -89,12 +107,12 @@ void HybridRenderer::draw_one(const ResidentCell& cell, const HybridPlan& plan,
                    reinterpret_cast<const void*>(std::size_t{object.first_index} * 4));
 }
 
-void HybridRenderer::draw(const glm::dmat4& clip_from_world, const ResidentCell& cell,
-                          GLuint texels, const HybridPlan& plan, HybridStyle style) {
-  upload_blocks(cell, plan, style);
+void HybridRenderer::draw(const Camera& camera, const ResidentCell& cell, GLuint texels,
+                          const HybridPlan& plan, HybridStyle style) {
+  upload_blocks(cell, plan, glm::vec3(camera.eye - cell.ready->origin), style);
   cell.array.bind();
   gl_.BindTextureUnit(0, texels);
-  const glm::mat4 clip_from_local(glm::translate(clip_from_world, cell.ready->origin));
+  const glm::mat4 clip_from_local(glm::translate(clip_from_world(camera), cell.ready->origin));
   for (const GlProgram* program : {&two_views_, &one_view_, &lit_, &edges_})
     gl_.ProgramUniformMatrix4fv(program->id(), program->uniform("clip_from_local"), 1, GL_FALSE,
                                 glm::value_ptr(clip_from_local));

@@ -14,9 +14,17 @@ enum class HybridStyle {
 
 struct HybridOptions {
   /// A texel counts for a fragment when their depths differ by at most this share of the object's
-  /// depth range (trap 29: texels of another layer).
+  /// depth range (trap 29: texels of another layer), or by so little that the eye and the view see
+  /// the two within shift_px texels of each other: what is far may lie wrong in depth without
+  /// anyone seeing it.
   float depth_tolerance = 0.08f;
+  float shift_px = 1;
 };
+
+/// The difference of depth codes, in [0, 1], up to which a texel of the view counts for the frame's
+/// eye. middle: of the object; all cell-local.
+float depth_tolerance(const ViewProjection& view, const glm::vec3& eye, const glm::vec3& middle,
+                      const HybridOptions& options);
 
 /// Follows: [Chen06 5.2.2]. Differs: which view a point may be textured from is decided for each
 /// fragment, by comparing its depth with its texels', and not for each polygon by its corners' view
@@ -27,17 +35,19 @@ class HybridRenderer {
   HybridRenderer(const Gl& gl, const Scene& scene, const HybridOptions& options = {});
 
   /// Into the bound framebuffer: the plan's outside objects.
-  void draw(const glm::dmat4& clip_from_world, const ResidentCell& cell, GLuint texels,
-            const HybridPlan& plan, HybridStyle style = HybridStyle::textured);
+  void draw(const Camera& camera, const ResidentCell& cell, GLuint texels, const HybridPlan& plan,
+            HybridStyle style = HybridStyle::textured);
 
  private:
   struct DrawBlock;
-  void upload_blocks(const ResidentCell& cell, const HybridPlan& plan, HybridStyle style);
+  void upload_blocks(const ResidentCell& cell, const HybridPlan& plan, const glm::vec3& eye,
+                     HybridStyle style);
   void draw_one(const ResidentCell& cell, const HybridPlan& plan, std::size_t i) const;
   void draw_edges(const ResidentCell& cell, const HybridPlan& plan) const;
 
   const Gl& gl_;
   const Scene& scene_;
+  HybridOptions options_;
   GlProgram two_views_, one_view_, lit_, edges_;
   GlBuffer blocks_;
   std::size_t block_stride_ = 0;

@@ -11,7 +11,7 @@ layout(std140, binding = 0) uniform DrawBlock {
   vec4 weights;        // of views 0 and 1
   vec4 rows[6];        // s, t, q of views 0, 1
   ivec4 regions[2];    // first texel, width, height
-  vec4 codes[2];       // scale, bias
+  vec4 codes[2];       // scale, bias, 1 / tolerance
 };
 )";
 
@@ -33,8 +33,8 @@ std::string varyings(const std::string& direction, int n_views) {
 
 // Four texels around the point, weighted bilinearly and by how near their depth is to the
 // fragment's own: with x = difference / tolerance, 1 / (1 + x^8), all but a step. Where no texel is
-// within the tolerance the nearest in depth wins, unless all are far off (kTexturedMain). Returns
-// colour times weight, and the weight.
+// within the tolerance the nearest in depth wins, unless all are far off (make_textured_main).
+// Returns colour times weight, and the weight.
 const char* kGuardedFetch = R"(
 layout(binding = 0) uniform samplerBuffer texels;
 vec4 guarded_fetch(vec3 stq, ivec4 region, vec4 code) {
@@ -49,7 +49,7 @@ vec4 guarded_fetch(vec3 stq, ivec4 region, vec4 code) {
   vec4 t01 = texelFetch(texels, i), t11 = texelFetch(texels, i + 1);
   vec4 away = abs(vec4(t00.a, t10.a, t01.a, t11.a) - (code.x * r + code.y));
   vec4 w = vec4((1.0 - f.x) * (1.0 - f.y), f.x * (1.0 - f.y), (1.0 - f.x) * f.y, f.x * f.y);
-  vec4 far = away * (1.0 / DEPTH_TOLERANCE);
+  vec4 far = away * code.z;
   far *= far;
   far *= far;
   w /= 1.0 + far * far;
@@ -57,28 +57,20 @@ vec4 guarded_fetch(vec3 stq, ivec4 region, vec4 code) {
 }
 )";
 
-// Below this weight, at about 1.6 tolerances from every texel, the views say nothing of the
-// fragment.
-const char* kTexturedMain = R"(
-void main() {
-  vec4 sum = FETCHES;
-  bool is_seen = sum.w > 0.02;
-  color = vec4(is_seen ? sum.rgb / sum.w : lit, is_seen ? 1.0 : 254.0 / 255.0);
-}
-)";
-
 const char* kLitMain = R"(
 void main() { color = vec4(lit, 254.0 / 255.0); }
 )";
 
-std::string replaced(std::string text, const std::string& name, const std::string& by) {
-  return text.replace(text.find(name), name.size(), by);
-}
-
-std::string make_fetches(int n_views) {
-  const std::string first = "guarded_fetch(stq0, regions[0], codes[0])";
-  if (n_views == 1) return first;
-  return "weights.x * " + first + " + weights.y * guarded_fetch(stq1, regions[1], codes[1])";
+// Below a weight of 0.02, at about 1.6 tolerances from every texel, the views say nothing of the
+// fragment.
+std::string make_textured_main(int n_views) {
+  std::string sum = "guarded_fetch(stq0, regions[0], codes[0])";
+  if (n_views == 2)
+    sum = "weights.x * " + sum + " + weights.y * guarded_fetch(stq1, regions[1], codes[1])";
+  return "void main() {\n  vec4 sum = " + sum +
+         ";\n"
+         "  bool is_seen = sum.w > 0.02;\n"
+         "  color = vec4(is_seen ? sum.rgb / sum.w : lit, is_seen ? 1.0 : 254.0 / 255.0);\n}\n";
 }
 
 }  // namespace
@@ -100,12 +92,11 @@ std::string make_hybrid_vertex_glsl(int n_views, const Lighting& lighting) {
   return out + "}\n";
 }
 
-std::string make_hybrid_fragment_glsl(int n_views, float depth_tolerance) {
+std::string make_hybrid_fragment_glsl(int n_views) {
   const std::string out = "#version 450 core\n" + varyings("in", n_views) +
                           "layout(location = 0) out vec4 color;\n" + kBlock;
   if (n_views == 0) return out + kLitMain;
-  return out + replaced(kGuardedFetch, "DEPTH_TOLERANCE", std::to_string(depth_tolerance)) +
-         replaced(kTexturedMain, "FETCHES", make_fetches(n_views));
+  return out + kGuardedFetch + make_textured_main(n_views);
 }
 
 std::string make_edge_fragment_glsl() {

@@ -11,7 +11,7 @@ namespace viewcell {
 /// Uniform mat4 clip_from_local; uniform block 0 DrawBlock as in hybrid_renderer.cpp; texture unit
 /// 0: the texels.
 std::string make_hybrid_vertex_glsl(int n_views, const Lighting& lighting);
-std::string make_hybrid_fragment_glsl(int n_views, float depth_tolerance);
+std::string make_hybrid_fragment_glsl(int n_views);
 /// Plain dark edges for wireframes.
 std::string make_edge_fragment_glsl();
 

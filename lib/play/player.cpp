@@ -50,12 +50,11 @@ DrawnFrame Player::draw_hybrid(const Camera& camera, HybridStyle style) {
   const ResidentCell& cell = residency_.enter(camera);
   const HybridPlan plan =
       plan_hybrid(plan_scene_, bundle_.cells(), *cell.ready, cell.views, camera);
-  const glm::dmat4 clip = clip_from_world(camera);
-  scene_renderer_.draw_background(target_, clip);
+  scene_renderer_.draw_background(target_, clip_from_world(camera));
   DrawStyle inside_style;
   if (style != HybridStyle::textured) inside_style.base_color = kOriginalColor;
   const std::size_t n_inside = scene_renderer_.draw_clusters(camera, plan.inside, inside_style);
-  hybrid_renderer_.draw(clip, cell, residency_.texel_texture(), plan, style);
+  hybrid_renderer_.draw(camera, cell, residency_.texel_texture(), plan, style);
   return {0, n_inside + plan.n_triangles, plan.inside.size() + plan.outside.size(),
           residency_.texture_bytes()};
 }

@@ -48,6 +48,8 @@ ViewProjection make_projection(const BundleTile& tile, const glm::dvec3& origin,
   out.row_t = glm::vec4((half - tile.y) * q - tile.focal_px * row(up));
   out.first_texel = static_cast<std::int32_t>(first_texel + tile.first_texel);
   out.width_px = tile.width_px, out.height_px = tile.height_px;
+  out.focal_px = static_cast<float>(tile.focal_px);
+  out.eye = glm::vec3(-from_eye);
   out.code_scale = static_cast<float>(tile.code_scale / 255);
   out.code_bias = static_cast<float>(tile.code_bias / 255);
   return out;

@@ -22,6 +22,8 @@ struct ViewProjection {
   glm::vec4 row_s{0}, row_t{0}, row_q{0};
   std::int32_t first_texel = 0, width_px = 0, height_px = 0;
   float code_scale = 0, code_bias = 0;  ///< depth code in [0, 1] = scale / q + bias
+  float focal_px = 0;                   ///< texels per unit tangent
+  glm::vec3 eye{0};                     ///< of the view; cell-local
 };
 
 struct ResidentCell {

@@ -88,6 +88,36 @@ TEST(HybridFrame, LooksLikeTheOriginals) {
   EXPECT_LT(n_lit, 0.02 * static_cast<double>(n_textured));
 }
 
+// Two points on a line of sight of the view, as far apart as the tolerance allows, are seen from
+// the eye within a texel of each other; where they are farther apart the least tolerance rules.
+TEST(DepthTolerance, IsATexelOfParallax) {
+  Random random(35);
+  HybridOptions options;
+  int n_by_shift = 0;
+  for (int k = 0; k < 400; ++k) {
+    ViewProjection view;
+    view.eye = {random.uniform(-80, 80), random.uniform(-80, 80), random.uniform(-3, 3)};
+    view.focal_px = static_cast<float>(random.uniform(400, 2000));
+    const glm::vec3 eye(random.uniform(-40, 40), random.uniform(-40, 40), random.uniform(-3, 3));
+    const float angle = static_cast<float>(random.uniform(0, 6.28)), distance = 600;
+    const glm::vec3 along(std::cos(angle), std::sin(angle), 0);
+    const float size = static_cast<float>(random.uniform(5, 40));  // of the object, in depth
+    view.code_scale = 1 / (1 / (distance - size) - 1 / (distance + size));
+    const glm::vec3 middle = view.eye + distance * along;
+    options.shift_px = random.below(2) == 0 ? 1.0f : 3.0f;
+    const float tolerance = depth_tolerance(view, eye, middle, options);
+    EXPECT_GE(tolerance, options.depth_tolerance);
+    if (tolerance == options.depth_tolerance) continue;
+    ++n_by_shift;
+    const float depth = 1 / (1 / distance + tolerance / view.code_scale);
+    const glm::dvec3 a = glm::normalize(glm::dvec3(middle - eye));
+    const glm::dvec3 b = glm::normalize(glm::dvec3(view.eye + depth * along - eye));
+    const double shift_px = view.focal_px * glm::length(glm::cross(a, b));
+    EXPECT_NEAR(shift_px, options.shift_px, 0.2 * options.shift_px) << k;
+  }
+  EXPECT_GT(n_by_shift, 100);
+}
+
 TEST(HybridFrame, DrawsFewerTriangles) {
   Stage stage;
   Random random(32);
