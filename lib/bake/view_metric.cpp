@@ -11,6 +11,7 @@ namespace {
 constexpr double kLeastDistance = 5;
 // Cosine between normal and line of sight over which a surface comes from edge-on to facing.
 constexpr double kEdgeOnWidth = 0.3;
+constexpr double kPatchPx = 50;      // area for which drift is the root mean square itself, px^2
 constexpr float kRimWeight = 0.39f;  // the paper's for silhouettes is 0.4 or 0.5
 
 }  // namespace
@@ -79,7 +80,9 @@ double ViewMetric::drift_px(std::uint32_t u, std::uint32_t v) const {
   const double weight = quadrics_[u].weight + quadrics_[v].weight;
   const double value = quadrics_[u].value(p) + quadrics_[v].value(p);
   if (!(weight > 0)) return 0;
-  return std::sqrt(std::max(value, 0.0) / weight) * px_per_unit_[v];
+  const double rms_px = std::sqrt(std::max(value, 0.0) / weight) * px_per_unit_[v];
+  const double area_px = weight * px_per_unit_[v] * px_per_unit_[v];
+  return rms_px * std::sqrt(std::sqrt(area_px / kPatchPx));
 }
 
 float ViewMetric::cost(std::uint32_t u, std::uint32_t v) const {

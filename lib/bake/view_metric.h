@@ -33,12 +33,15 @@ struct ViewMetricOptions {
 /// weight collapses. A vertex keeps its own normal, weight and views when others collapse into it.
 ///
 /// Differs (trap 14, no term bounds deviation): cost(u, v) = max(paper, T_l drift / max_drift), so
-/// that a collapse ends at T_l by either. drift is a root mean square, in px, of v's distances d to
-/// the planes of the triangles that it comes to stand for: sqrt(sum A s^2 d^2 / sum A s), with A
-/// their areas and s how much a displacement there shows:
+/// that a collapse ends at T_l by either. drift, in px, is rms (P / 50)^(1/4): rms the root mean
+/// square of v's distances d to the planes of the triangles that it comes to stand for,
+/// sqrt(sum A s^2 d^2 / sum A s), P = sum A s in px^2, with A their areas and s how much a
+/// displacement there shows:
 ///   1 where the surface is seen edge-on from some point of the cell, or is a silhouette by the
 ///   paper's weights, falling to the parallax that a displacement of a facing surface causes, half
 ///   the cell's size over the distance: the texture is projected, so only its depth is wrong.
+/// The fourth root stands halfway between the same rms everywhere, which spends triangles on small
+/// patches, and the least sum of squares, which leaves the large ones crude.
 /// Pixels, in l and drift, are root mean squares over points of the cell (`samples`): by the
 /// nearest point alone, objects next to a cell would hardly be simplified at all.
 class ViewMetric {

@@ -37,6 +37,11 @@ ViewVertices make_step(double h, const glm::vec3& normal, float weight) {
 }
 const std::vector<Triangle> kStep{{0, 1, 2}};
 
+// The fourth root of the patch's pixels over 50: vertex 0 stands for a third of kStep's triangle.
+double patch_factor(double px_per_unit, double show = 1) {
+  return std::pow(12.5 / 3 * show * px_per_unit * px_per_unit / 50, 0.25);
+}
+
 TEST(ViewMetric, FlatPairCostsWhatThePaperSays) {
   const ViewVertices v = make_vertices({{100, 0, 0}, {100, 1, 0}, {100, 0, 1}}, {-1, 0, 0}, 0.125f);
   const ViewMetricOptions options = make_options();
@@ -153,7 +158,8 @@ TEST(ViewMetric, DriftGrowsWithHeightAndEndsAtTl) {
       const ViewVertices v = make_step(h, {-1, 0, 0}, 0.5f);
       const ViewMetric metric(v, kStep, options);
       const double h_float = 100.0 - static_cast<double>(v.positions[3].x);
-      const double expected = 4.5 / max_drift * h_float * kFocal / (100 - h_float);
+      const double px = kFocal / (100 - h_float);
+      const double expected = 4.5 / max_drift * h_float * px * patch_factor(px);
       EXPECT_NEAR(metric.cost(0, 3), expected, 1e-5 * expected) << h;
     }
 }
@@ -180,7 +186,8 @@ TEST(ViewMetric, NothingDriftsInAPlane) {
   }
 }
 
-// Facing: s = 0.5 * 20 / 100, the parallax; edge-on or silhouette: s = 1. drift = sqrt(s) h px.
+// Facing: s = 0.5 * 20 / 100, the parallax; edge-on or silhouette: s = 1. drift =
+// sqrt(s) h px times the patch's factor, which has s^(1/4).
 TEST(ViewMetric, DisplacementsShowAtSilhouettes) {
   const ViewMetricOptions options = make_options(20);
   const auto cost = [&](const glm::vec3& normal, float weight) {
@@ -188,10 +195,11 @@ TEST(ViewMetric, DisplacementsShowAtSilhouettes) {
     return ViewMetric(v, kStep, options).cost(0, 3);
   };
   const double edge_on = cost({0, 1, 0}, 0.125f);
-  EXPECT_NEAR(edge_on, 9 * kFocal / 99, 0.01);
+  EXPECT_NEAR(edge_on, 9 * kFocal / 99 * patch_factor(kFocal / 99), 0.01);
   EXPECT_NEAR(cost({-1, 0, 0}, 0.5f), edge_on, 0.01);
   EXPECT_NEAR(cost({-1, 0, 0}, 0.4f), edge_on, 0.01);
-  EXPECT_NEAR(cost({-1, 0, 0}, 0.25f), std::sqrt(0.1) * edge_on, 0.01);
+  const double facing = std::pow(0.1, 0.75) * edge_on;
+  EXPECT_NEAR(cost({-1, 0, 0}, 0.25f), facing, 0.01);
   double last = edge_on;
   for (int deg = 0; deg <= 90; deg += 5) {
     const double a = glm::radians(90.0 - deg);
@@ -199,7 +207,7 @@ TEST(ViewMetric, DisplacementsShowAtSilhouettes) {
     EXPECT_LE(c, last + 1e-6) << deg;
     last = c;
   }
-  EXPECT_NEAR(last, std::sqrt(0.1) * edge_on, 0.01);
+  EXPECT_NEAR(last, facing, 0.01);
 }
 
 TEST(ViewMetric, AVertexRemembersWhatCollapsedIntoIt) {
@@ -211,7 +219,8 @@ TEST(ViewMetric, AVertexRemembersWhatCollapsedIntoIt) {
   const double before = metric.cost(3, 4);
   metric.collapsed(0, 3);
   EXPECT_LT(before, 1);
-  EXPECT_NEAR(metric.cost(3, 4), 9 * kFocal / glm::length(glm::dvec3(99, -1, 0)), 0.01);
+  const double px = kFocal / glm::length(glm::dvec3(99, -1, 0));
+  EXPECT_NEAR(metric.cost(3, 4), 9 * px * patch_factor(px), 0.01);
 }
 
 // Vertices of a ball lie on their own planes; one that stands for a neighbour lies inside the
