@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <span>
 
 #include "base/file.h"
 #include "base/parallel.h"
@@ -41,14 +42,17 @@ void time_frames(Player& player, const std::vector<Camera>& cameras, const Sessi
                  Timeline& timeline, Pass pass) {
   for (const Mode mode : options.modes) player.draw(mode, cameras[0]);  // shaders are compiled here
   time_floor(player);
-  for (const Camera& camera : cameras) {
-    for (std::size_t m = 0; m < options.modes.size(); ++m) {
-      const DrawnFrame drawn = player.draw(options.modes[m], camera);
-      timeline.modes[m].frames.push_back(
-          {drawn.ms, drawn.n_triangles, drawn.n_draws, drawn.texture_bytes, {}});
-    }
-    timeline.floor_ms.push_back(time_floor(player));
-    pass.step();
+  for (std::size_t first = 0; first < cameras.size(); first += options.turn_frames) {
+    const std::size_t n = std::min(options.turn_frames, cameras.size() - first);
+    const std::span<const Camera> turn(cameras.data() + first, n);
+    for (std::size_t m = 0; m < options.modes.size(); ++m)
+      for (const Camera& camera : turn) {
+        const DrawnFrame drawn = player.draw(options.modes[m], camera);
+        timeline.modes[m].frames.push_back(
+            {drawn.ms, drawn.n_triangles, drawn.n_draws, drawn.texture_bytes, {}});
+      }
+    for (std::size_t i = 0; i < n; ++i) timeline.floor_ms.push_back(time_floor(player));
+    for (std::size_t i = 0; i < n; ++i) pass.step();
   }
 }
 

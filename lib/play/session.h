@@ -15,6 +15,9 @@ struct SessionOptions {
   std::vector<Mode> modes;
   Mode reference = Mode::frustum;
   std::size_t n_frames = 120;
+  /// Modes take turns after so many frames. A mode's frames follow its own, as in play, with caches
+  /// that are warm for it; a drift of the machine still meets all modes alike.
+  std::size_t turn_frames = 24;
   std::filesystem::path save;  ///< folder of frames, MODE/frame-00012.png; empty: none
   std::size_t save_every = 1;
   std::size_t n_sheet_rows = 4;   ///< frames on the contact sheet
@@ -27,8 +30,8 @@ struct Session {
   ImageRgba8 contact_sheet;  ///< reference | hybrid | difference x 8 | kinds; empty without hybrid
 };
 
-/// First every frame is drawn in every mode, interleaved and timed, from a bundle of which one cell
-/// is loaded; then the frames are drawn again to be read back, compared and saved.
+/// First every frame is drawn in every mode, timed, the modes taking turns, from a bundle of which
+/// one cell is loaded; then the frames are drawn again to be read back, compared and saved.
 Session run_session(Player& player, const Bundle& bundle, const CameraPath& path,
                     const SessionOptions& options, const Progress& progress = {});
 

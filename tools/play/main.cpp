@@ -32,6 +32,9 @@ void declare(Tool& tool, Options& o) {
   app.add_option("--frames", o.session.n_frames, "frames over the whole path")
       ->capture_default_str()
       ->check(CLI::Range(1, 100000));
+  app.add_option("--turn", o.session.turn_frames, "frames of one mode before the next has its turn")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 100000));
   app.add_option("--size", o.size, "WIDTHxHEIGHT in px")->capture_default_str();
   app.add_option("--save", o.session.save, "folder to write frames to, as PNG");
   app.add_option("--every", o.session.save_every, "save every K-th frame")
