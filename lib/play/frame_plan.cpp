@@ -121,4 +121,20 @@ FramePlan plan_lod(const PlanScene& scene, const Camera& camera, int height_px,
   return plan;
 }
 
+FramePlan plan_lod_within(const PlanScene& scene, const Camera& camera, int height_px,
+                          std::size_t n_most) {
+  double fine_px = 1e-6, coarse_px = 1e6;  // too many triangles; few enough, or as few as there are
+  FramePlan best = plan_lod(scene, camera, height_px, fine_px);
+  if (best.n_triangles <= n_most) return best;
+  best = plan_lod(scene, camera, height_px, coarse_px);
+  while (coarse_px > 1.001 * fine_px) {
+    const double middle_px = std::sqrt(fine_px * coarse_px);
+    FramePlan plan = plan_lod(scene, camera, height_px, middle_px);
+    const bool fits = plan.n_triangles <= n_most;
+    (fits ? coarse_px : fine_px) = middle_px;
+    if (fits) best = std::move(plan);
+  }
+  return best;
+}
+
 }  // namespace viewcell

@@ -63,5 +63,9 @@ FramePlan plan_frustum(const PlanScene& scene, const Camera& camera);
 /// its box, projects to at most max_error_px in a frame of height_px.
 FramePlan plan_lod(const PlanScene& scene, const Camera& camera, int height_px,
                    double max_error_px = 1);
+/// Mode `lod-equal`: as `lod`, with the least error for all objects that draws at most n_most
+/// triangles; every object's coarsest level when none does.
+FramePlan plan_lod_within(const PlanScene& scene, const Camera& camera, int height_px,
+                          std::size_t n_most);
 
 }  // namespace viewcell

@@ -7,7 +7,9 @@
 namespace viewcell {
 namespace {
 
-constexpr const char* kModeNames[] = {"geometry", "frustum", "lod", "hybrid", "raycast"};
+constexpr const char* kModeNames[] = {
+    "geometry",           "frustum",          "lod", "hybrid", "raycast", "lod-equal",
+    "geometry-two-sided", "frustum-two-sided"};
 
 // The bundle's grey-and-original style for objects inside the cell in pictures of kinds.
 const glm::vec3 kOriginalColor{0.55f, 0.5f, 0.42f};
@@ -17,7 +19,9 @@ const glm::vec3 kOriginalColor{0.55f, 0.5f, 0.42f};
 Mode parse_mode(const std::string& name) {
   for (std::size_t i = 0; i < std::size(kModeNames); ++i)
     if (name == kModeNames[i]) return static_cast<Mode>(i);
-  throw UsageError("'" + name + "' is no mode: geometry, frustum, lod, hybrid, raycast");
+  std::string names;
+  for (const char* known : kModeNames) names += (names.empty() ? "" : ", ") + std::string(known);
+  throw UsageError("'" + name + "' is no mode: " + names);
 }
 
 const char* mode_name(Mode mode) {
@@ -40,9 +44,10 @@ Player::Player(const Bundle& bundle, const PlayerOptions& options)
     ray_caster_ = std::make_unique<RayCaster>(bundle.scene(), options.n_threads);
 }
 
-DrawnFrame Player::draw_plan(const FramePlan& plan, const glm::dmat4& clip) {
+DrawnFrame Player::draw_plan(const FramePlan& plan, const glm::dmat4& clip,
+                             const DrawStyle& style) {
   scene_renderer_.draw_background(target_, clip);
-  scene_renderer_.draw_objects(clip, plan.draws);
+  scene_renderer_.draw_objects(clip, plan.draws, style);
   return {0, plan.n_triangles, plan.draws.size(), 0};
 }
 
@@ -55,11 +60,26 @@ DrawnFrame Player::draw_hybrid(const Camera& camera, HybridStyle style) {
   if (style != HybridStyle::textured) inside_style.base_color = kOriginalColor;
   const std::size_t n_inside = scene_renderer_.draw_clusters(camera, plan.inside, inside_style);
   hybrid_renderer_.draw(camera, cell, residency_.texel_texture(), plan, style);
-  return {0, n_inside + plan.n_triangles, plan.inside.size() + plan.outside.size(),
+  hybrid_camera_ = camera;
+  n_hybrid_triangles_ = n_inside + plan.n_triangles;
+  return {0, n_hybrid_triangles_, plan.inside.size() + plan.outside.size(),
           residency_.texture_bytes()};
 }
 
+std::size_t Player::count_hybrid(const Camera& camera) {
+  if (n_hybrid_triangles_ == 0 || camera.eye != hybrid_camera_.eye ||
+      camera.forward != hybrid_camera_.forward)
+    draw_hybrid(camera, HybridStyle::textured);
+  return n_hybrid_triangles_;
+}
+
 DrawnFrame Player::draw(Mode mode, const Camera& camera) {
+  FramePlan lod_equal;  // made before the clock starts: a user would choose an error, not a count
+  if (mode == Mode::lod_equal) {
+    lod_equal = plan_lod_within(plan_scene_, camera, options_.height_px, count_hybrid(camera));
+    context_.gl().Finish();
+  }
+  const DrawStyle two_sided{.base_color = {}, .cull_back_faces = false};
   const auto start = std::chrono::steady_clock::now();
   DrawnFrame frame;
   switch (mode) {
@@ -71,6 +91,15 @@ DrawnFrame Player::draw(Mode mode, const Camera& camera) {
       break;
     case Mode::lod:
       frame = draw_plan(plan_lod(plan_scene_, camera, options_.height_px), clip_from_world(camera));
+      break;
+    case Mode::lod_equal:
+      frame = draw_plan(lod_equal, clip_from_world(camera));
+      break;
+    case Mode::geometry_two_sided:
+      frame = draw_plan(plan_geometry(plan_scene_), clip_from_world(camera), two_sided);
+      break;
+    case Mode::frustum_two_sided:
+      frame = draw_plan(plan_frustum(plan_scene_, camera), clip_from_world(camera), two_sided);
       break;
     case Mode::hybrid:
       frame = draw_hybrid(camera, HybridStyle::textured);

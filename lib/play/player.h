@@ -13,8 +13,20 @@
 
 namespace viewcell {
 
-enum class Mode { geometry, frustum, lod, hybrid, raycast };
-/// "geometry", ...; throws UsageError for another name.
+/// two_sided: without the culling of back faces by GL. lod_equal: as many triangles as hybrid draws
+/// of the same camera, or fewer.
+enum class Mode {
+  geometry,
+  frustum,
+  lod,
+  hybrid,
+  raycast,
+  lod_equal,
+  geometry_two_sided,
+  frustum_two_sided
+};
+/// "geometry", ... "lod-equal", "geometry-two-sided", "frustum-two-sided"; throws UsageError for
+/// another name.
 Mode parse_mode(const std::string& name);
 const char* mode_name(Mode mode);
 
@@ -24,7 +36,7 @@ struct PlayerOptions {
   int n_threads = 0;
   ResidencyOptions residency;
   HybridOptions hybrid;
-  bool with_lod = false;      ///< mode lod will be drawn: build its levels
+  bool with_lod = false;      ///< mode lod or lod_equal will be drawn: build its levels
   bool with_raycast = false;  ///< mode raycast will be drawn: build its hierarchies
 };
 
@@ -58,7 +70,8 @@ class Player {
   const Residency& residency() const { return residency_; }
 
  private:
-  DrawnFrame draw_plan(const FramePlan& plan, const glm::dmat4& clip);
+  DrawnFrame draw_plan(const FramePlan& plan, const glm::dmat4& clip, const DrawStyle& style = {});
+  std::size_t count_hybrid(const Camera& camera);
   DrawnFrame draw_hybrid(const Camera& camera, HybridStyle style);
 
   const Bundle& bundle_;
@@ -72,6 +85,8 @@ class Player {
   HybridRenderer hybrid_renderer_;
   FloorQuad floor_;
   std::unique_ptr<RayCaster> ray_caster_;
+  Camera hybrid_camera_;  // of the last hybrid frame
+  std::size_t n_hybrid_triangles_ = 0;
   ImageRgba8 ray_image_;
 };
 

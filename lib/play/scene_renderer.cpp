@@ -143,11 +143,12 @@ void SceneRenderer::draw_background(const GlFramebuffer& target,
 }
 
 const SceneRenderer::Program& SceneRenderer::use_program(const Object& object,
+                                                         const DrawStyle& style,
                                                          const Program* current) const {
   const Program& program = object.double_sided ? double_sided_ : single_sided_;
   if (&program == current) return program;
   program.program.use();
-  (object.double_sided ? gl_.Disable : gl_.Enable)(GL_CULL_FACE);
+  (style.cull_back_faces && !object.double_sided ? gl_.Enable : gl_.Disable)(GL_CULL_FACE);
   return program;
 }
 
@@ -170,7 +171,7 @@ void SceneRenderer::draw_objects(const glm::dmat4& clip_from_world,
   const Program* current = nullptr;
   for (const ObjectDraw& draw : draws) {
     const Object& object = objects_[index(draw.object)];
-    current = &use_program(object, current);
+    current = &use_program(object, style, current);
     set_object(*current, object, clip_from_world, style);
     const Range& range = ranges_[index(object.mesh)][static_cast<std::size_t>(draw.level)];
     gl_.DrawElementsBaseVertex(GL_TRIANGLES, range.n_indices, GL_UNSIGNED_INT,
@@ -201,7 +202,7 @@ std::size_t SceneRenderer::draw_clusters(const Camera& camera, std::span<const O
   for (const ObjectId id : objects) {
     const Object& object = objects_[index(id)];
     const SceneObject& placed = *scene_objects_[index(id)];
-    current = &use_program(object, current);
+    current = &use_program(object, style, current);
     set_object(*current, object, clip, style);
     const glm::dvec3 eye_model = placed.model_from_world(camera.eye);
     const Range& range = cluster_ranges_[index(object.mesh)];

@@ -17,6 +17,7 @@ namespace viewcell {
 /// How objects look; the default is how the scene says.
 struct DrawStyle {
   std::optional<glm::vec3> base_color;  ///< instead of the materials' (linear)
+  bool cull_back_faces = true;          ///< but for materials that are double-sided
 };
 
 /// Every mesh once in GL memory (20 bytes a vertex, 12 a triangle), plain material colours, back
@@ -59,7 +60,8 @@ class SceneRenderer {
   };
 
   void upload(const std::vector<MeshLevels>& levels);
-  const Program& use_program(const Object& object, const Program* current) const;
+  const Program& use_program(const Object& object, const DrawStyle& style,
+                             const Program* current) const;
   void set_object(const Program& program, const Object& object, const glm::dmat4& clip_from_world,
                   const DrawStyle& style) const;
   Program make_program(const Lighting& lighting, bool double_sided) const;

@@ -123,5 +123,26 @@ TEST(FramePlan, LodDrawsTheObjectsOfFrustumWithNoMoreTriangles) {
   }
 }
 
+// What lod-equal draws fits; the next finer error that changes anything does not.
+TEST(FramePlan, LodWithinSpendsWhatItMay) {
+  const Scene scene = make_small_scene(40, 3);
+  const PlanScene plan_scene = make_plan_scene(scene, build_scene_levels(scene, true));
+  Random random(6);
+  for (int k = 0; k < 20; ++k) {
+    const Camera camera = random_camera(random);
+    const std::size_t n_frustum = plan_frustum(plan_scene, camera).n_triangles;
+    const std::size_t n_coarsest = plan_lod(plan_scene, camera, 1024, 1e9).n_triangles;
+    EXPECT_EQ(plan_lod_within(plan_scene, camera, 1024, n_frustum).n_triangles, n_frustum);
+    EXPECT_EQ(plan_lod_within(plan_scene, camera, 1024, 0).n_triangles, n_coarsest);
+    for (const double error_px : {0.3, 2.0, 20.0}) {
+      const std::size_t n = plan_lod(plan_scene, camera, 1024, error_px).n_triangles;
+      const FramePlan plan = plan_lod_within(plan_scene, camera, 1024, n);
+      EXPECT_LE(plan.n_triangles, n);
+      EXPECT_GE(plan.n_triangles, plan_lod(plan_scene, camera, 1024, 1.01 * error_px).n_triangles);
+      EXPECT_EQ(drawn(plan), drawn(plan_frustum(plan_scene, camera)));
+    }
+  }
+}
+
 }  // namespace
 }  // namespace viewcell

@@ -25,7 +25,9 @@ void declare(Tool& tool, Options& o) {
   CLI::App& app = tool.app();
   app.add_option("bundle", o.bundle, "folder of the bundle")->required();
   app.add_option("--path", o.path_file, "path.json")->required();
-  app.add_option("--modes", o.modes, "of geometry,frustum,lod,hybrid,raycast")
+  app.add_option("--modes", o.modes,
+                 "of geometry,frustum,lod,hybrid,raycast, "
+                 "lod-equal,geometry-two-sided,frustum-two-sided")
       ->capture_default_str();
   app.add_option("--reference", o.reference, "mode that pictures are compared with")
       ->capture_default_str();
@@ -88,7 +90,7 @@ PlayerOptions make_player_options(const Tool& tool, const Options& o) {
   const auto plays = [&](Mode mode) {
     return std::find(o.session.modes.begin(), o.session.modes.end(), mode) != o.session.modes.end();
   };
-  player.with_lod = plays(Mode::lod);
+  player.with_lod = plays(Mode::lod) || plays(Mode::lod_equal);
   player.with_raycast = plays(Mode::raycast);
   return player;
 }
