@@ -76,6 +76,7 @@ class Comparer {
     const ImageRgba8 reference = draw(options_.reference, camera);
     FrameInfo& info = timeline_.frames[i];
     info.coverage = measure_coverage(reference);
+    info.luminance_deviation = measure_luminance_deviation(reference);
     info.yardstick = measure_quality(reference, player_.draw_shifted(camera, {0.5, 0.5}));
     for (std::size_t m = 0; m < options_.modes.size(); ++m) {
       const Mode mode = options_.modes[m];

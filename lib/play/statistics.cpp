@@ -11,6 +11,8 @@
 namespace viewcell {
 namespace {
 
+constexpr const char* kRaycast = "raycast";
+
 using Quality = std::function<const PictureQuality&(std::size_t frame)>;
 
 double percentile(const std::vector<double>& sorted, double p) {
@@ -99,7 +101,7 @@ Json mode_to_json(const Timeline& timeline, const ModeTimeline& mode) {
                {"texture_bytes_mean", mean_of(values_of(mode, &FrameRecord::texture_bytes))},
                {"draws_mean", mean_of(values_of(mode, &FrameRecord::n_draws))},
                {"missing_px_mean", mean_of(missing_px(mode))}};
-  if (mode.mode == "raycast")
+  if (mode.mode == kRaycast)
     json["rays_per_s"] = timeline.width_px * timeline.height_px / (1e-3 * ms.mean);
   return json;
 }
@@ -138,10 +140,11 @@ Json speedups(const Timeline& timeline) {
   return json;
 }
 
-double coverage_mean(const Timeline& timeline) {
+// Of the frames for which it was measured.
+double frame_mean(const Timeline& timeline, double FrameInfo::*field) {
   std::vector<double> measured;
   for (const FrameInfo& frame : timeline.frames)
-    if (!std::isnan(frame.coverage)) measured.push_back(frame.coverage);
+    if (!std::isnan(frame.*field)) measured.push_back(frame.*field);
   return mean_of(measured);
 }
 
@@ -157,25 +160,45 @@ void check_timeline(const Timeline& timeline) {
                    timeline.frames.size());
 }
 
-std::string format_row(const Timeline& timeline, const ModeTimeline& mode) {
+using Row = std::vector<std::string>;
+
+std::string fixed(double x, int n_digits, bool with_sign = false) {
+  if (std::isnan(x)) return "";
+  char text[40];
+  std::snprintf(text, sizeof text, with_sign ? "%+.*f" : "%.*f", n_digits, x);
+  return text;
+}
+
+Row make_row(const Timeline& timeline, const ModeTimeline& mode) {
   const std::size_t n = mode.frames.size();
   const Summary ms = summarize(values_of(mode, &FrameRecord::ms));
-  const double triangles = mean_of(values_of(mode, &FrameRecord::n_triangles));
-  const double draws = mean_of(values_of(mode, &FrameRecord::n_draws));
-  char line[200];
-  std::snprintf(line, sizeof line, "%-9s %9.2f %9.2f %9.2f %11.0f %7.0f", mode.mode.c_str(),
-                ms.mean, ms.median, ms.p95, triangles, draws);
-  std::string row = line;
-  if (mode.mode == timeline.reference) return row + "   (reference)\n";
-  const auto excess = [&](bool covered) {
+  Row row{mode.mode,
+          fixed(ms.mean, 2),
+          fixed(ms.median, 2),
+          fixed(ms.p95, 2),
+          fixed(mean_of(values_of(mode, &FrameRecord::n_triangles)), 0),
+          fixed(mean_of(values_of(mode, &FrameRecord::n_draws)), 0)};
+  for (const bool covered : {false, true}) {
     const double db = summarize_db(n, quality_of(mode), covered).summary.mean;
-    return std::pair(db, db - summarize_db(n, yardstick_of(timeline), covered).summary.mean);
-  };
-  const auto [db, over] = excess(false);
-  const auto [covered_db, covered_over] = excess(true);
-  std::snprintf(line, sizeof line, " %7.2f %+6.1f %8.2f %+6.1f\n", db, over, covered_db,
-                covered_over);
-  return row + line;
+    const double over = db - summarize_db(n, yardstick_of(timeline), covered).summary.mean;
+    const bool is_reference = mode.mode == timeline.reference;
+    row.push_back(is_reference ? "" : fixed(db, 2));
+    row.push_back(is_reference ? "" : fixed(over, 1, true));
+  }
+  return row;
+}
+
+// Header first.
+std::vector<Row> make_rows(const Timeline& timeline) {
+  check_timeline(timeline);
+  std::vector<Row> rows{{"mode", "mean ms", "median", "p95", "triangles", "draws", "dB", "over",
+                         "covered dB", "over"}};
+  for (const ModeTimeline& mode : timeline.modes) rows.push_back(make_row(timeline, mode));
+  if (timeline.floor_ms.empty()) return rows;
+  const Summary ms = summarize(timeline.floor_ms);
+  rows.push_back(
+      {"floor", fixed(ms.mean, 2), fixed(ms.median, 2), fixed(ms.p95, 2), "", "", "", "", "", ""});
+  return rows;
 }
 
 }  // namespace
@@ -208,26 +231,62 @@ Json make_statistics(const Timeline& timeline) {
           {"yardstick",
            {{"psnr_db", to_json(summarize_db(n, yardstick_of(timeline), false))},
             {"psnr_covered_db", to_json(summarize_db(n, yardstick_of(timeline), true))}}},
-          {"coverage_mean", coverage_mean(timeline)},
+          {"coverage_mean", frame_mean(timeline, &FrameInfo::coverage)},
+          {"luminance_deviation_mean",
+           number_or_null(frame_mean(timeline, &FrameInfo::luminance_deviation))},
           {"speedup", speedups(timeline)},
           {"floor_ms", floor_to_json(timeline)},
           {"per_frame", per_frame}};
 }
 
 std::string format_mode_table(const Timeline& timeline) {
-  check_timeline(timeline);
-  char line[200];
-  std::snprintf(line, sizeof line, "%-9s %9s %9s %9s %11s %7s %7s %6s %8s %6s\n", "mode", "mean ms",
-                "median", "p95", "triangles", "draws", "dB", "over*", "covered", "over*");
-  std::string table = line;
-  for (const ModeTimeline& mode : timeline.modes) table += format_row(timeline, mode);
-  if (!timeline.floor_ms.empty()) {
-    const Summary ms = summarize(timeline.floor_ms);
-    std::snprintf(line, sizeof line, "%-9s %9.2f %9.2f %9.2f   (clear and one textured quad)\n",
-                  "floor", ms.mean, ms.median, ms.p95);
-    table += line;
+  const std::vector<Row> rows = make_rows(timeline);
+  std::vector<std::size_t> widths(rows[0].size(), 0);
+  for (const Row& row : rows)
+    for (std::size_t c = 0; c < row.size(); ++c) widths[c] = std::max(widths[c], row[c].size());
+  std::string table;
+  for (const Row& row : rows) {
+    for (std::size_t c = 0; c < row.size(); ++c) {
+      const std::string padding(widths[c] - row[c].size(), ' ');
+      table += c == 0 ? row[c] + padding : "  " + padding + row[c];
+    }
+    table.erase(table.find_last_not_of(' ') + 1);
+    table += '\n';
   }
-  return table + "* the reference shifted by half a pixel\n";
+  return table +
+         "over: the reference shifted by half a pixel; floor: a clear and a textured quad\n";
+}
+
+std::string format_markdown(const Timeline& timeline) {
+  const std::vector<Row> rows = make_rows(timeline);
+  std::string out = std::to_string(timeline.frames.size()) + " frames of " +
+                    std::to_string(timeline.width_px) + " x " + std::to_string(timeline.height_px) +
+                    ", objects on " + fixed(100 * frame_mean(timeline, &FrameInfo::coverage), 1) +
+                    " % of a frame, their luminance deviating by " +
+                    fixed(frame_mean(timeline, &FrameInfo::luminance_deviation), 1) + " of 255; " +
+                    timeline.renderer + ", " + std::to_string(timeline.gl_threads) +
+                    " raster threads, raycast on " + std::to_string(timeline.n_threads) +
+                    ". Reference: " + timeline.reference + ".\n\n";
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    out += "|";
+    for (const std::string& cell : rows[r]) out += " " + cell + " |";
+    out += '\n';
+    if (r > 0) continue;
+    out += "|---|";
+    for (std::size_t c = 1; c < rows[0].size(); ++c) out += "---:|";
+    out += '\n';
+  }
+  const Json speedup = speedups(timeline);
+  for (const auto& [name, factor] : speedup.items())
+    out += (&*speedup.begin() == &factor ? "\nTimes of other modes over hybrid's: " : ", ") +
+           name.substr(name.rfind('_') + 1) + " " + fixed(factor.get<double>(), 2);
+  if (!speedup.empty()) out += ".\n";
+  for (const ModeTimeline& mode : timeline.modes)
+    if (mode.mode == kRaycast)
+      out +=
+          "raycast: " + fixed(mode_to_json(timeline, mode)["rays_per_s"].get<double>() / 1e6, 1) +
+          " million rays a second.\n";
+  return out;
 }
 
 }  // namespace viewcell

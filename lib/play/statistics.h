@@ -24,5 +24,7 @@ Json make_statistics(const Timeline& timeline);
 
 /// The table of modes for people: one line a mode, times, triangles, dB over the yardstick.
 std::string format_mode_table(const Timeline& timeline);
+/// The same as a Markdown table, with what it was measured on, speedups and rays a second.
+std::string format_markdown(const Timeline& timeline);
 
 }  // namespace viewcell

@@ -1,9 +1,11 @@
 #include "play/timeline.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/error.h"
 #include "image/metrics.h"
+#include "image/ssim.h"
 
 namespace viewcell {
 namespace {
@@ -28,6 +30,17 @@ double measure_coverage(const ImageRgba8& picture) {
   VIEWCELL_CHECK(!picture.empty());
   const auto n = std::count_if(picture.pixels.begin(), picture.pixels.end(), is_object);
   return static_cast<double>(n) / static_cast<double>(picture.pixels.size());
+}
+
+double measure_luminance_deviation(const ImageRgba8& picture) {
+  const Image<double> y = luminance(picture);
+  double n = 0, sum = 0, squares = 0;
+  for (std::size_t i = 0; i < y.pixels.size(); ++i) {
+    if (!is_object(picture.pixels[i])) continue;
+    ++n, sum += y.pixels[i], squares += y.pixels[i] * y.pixels[i];
+  }
+  if (n == 0) return kNotMeasured;
+  return std::sqrt(std::max(0.0, squares / n - sum / n * (sum / n)));
 }
 
 }  // namespace viewcell

@@ -38,6 +38,9 @@ struct FrameInfo {
   int cell = -1;                   ///< the view cell of the eye; -1: none
   double coverage = kNotMeasured;  ///< share of the reference's pixels that show an object
   PictureQuality yardstick;  ///< the reference against itself shifted by half a pixel in x and y
+  /// Standard deviation of the reference's luminance over pixels that show an object, of 255: flat
+  /// lighting would flatter every dB.
+  double luminance_deviation = kNotMeasured;
 };
 
 struct ModeTimeline {
@@ -58,5 +61,7 @@ struct Timeline {
 
 /// Share of pixels that show an object.
 double measure_coverage(const ImageRgba8& picture);
+/// See FrameInfo; NaN when no pixel shows an object.
+double measure_luminance_deviation(const ImageRgba8& picture);
 
 }  // namespace viewcell

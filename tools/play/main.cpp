@@ -15,7 +15,7 @@ namespace {
 struct Options {
   std::string bundle, path_file, modes = "frustum,hybrid", reference = "frustum";
   std::string size = "1024x1024", gl = "osmesa";
-  std::string stats_file, plots_folder, sheet_file;
+  std::string stats_file, plots_folder, sheet_file, table_file;
   int texture_mb = 256;
   bool no_quality = false, no_prefetch = false;
   SessionOptions session;
@@ -46,6 +46,7 @@ void declare(Tool& tool, Options& o) {
       ->capture_default_str()
       ->check(CLI::Range(1, 100000));
   app.add_option("--stats", o.stats_file, "write statistics as JSON (-: stdout)");
+  app.add_option("--table", o.table_file, "write the table of modes as Markdown (-: stdout)");
   app.add_option("--plots", o.plots_folder, "folder to write plots to, as SVG");
   app.add_option("--sheet", o.sheet_file, "write a contact sheet of chosen frames, as PNG");
   app.add_option("--sheet-rows", o.session.n_sheet_rows, "frames on it")->capture_default_str();
@@ -111,6 +112,7 @@ int run(const Tool& tool, Options& o) {
   if (!o.sheet_file.empty() && !session.contact_sheet.empty())
     write_png(o.sheet_file, session.contact_sheet, PngAlpha::drop);
   if (!o.stats_file.empty()) write_file(o.stats_file, format_json(statistics));
+  if (!o.table_file.empty()) write_file(o.table_file, format_markdown(session.timeline));
   tool.report(statistics);
   if (!tool.common().quiet) std::cerr << format_mode_table(session.timeline);
   return 0;
