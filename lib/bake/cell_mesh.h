@@ -16,8 +16,8 @@ struct BakeOptions {
   double tl_px = 4.5;         ///< T_l: cost at which collapsing ends
   int resolution_px = 1024;   ///< of the captures, per face width
   double max_drift_px = 0.5;  ///< see ViewMetricOptions
-  double start_error_px =
-      0.25;  ///< start from a level whose error projects to less; 0: the original
+  /// Start from a level whose error projects to less; 0: from the original.
+  double start_error_px = 0.125;
   CategoryOptions categories;
   WeightOptions weights;
 };

@@ -117,8 +117,9 @@ TEST(CellMesh, VerticesAreTheOriginalsMovedAlongTheirNormals) {
       const glm::dvec3 at = object.world_from_model(glm::dvec3(original.positions.at(source)));
       const glm::dvec3 moved = glm::dvec3(mesh.vertices.positions[v]) - at;
       const glm::dvec3 normal(mesh.vertices.normals[v]);
-      // 0.5 px as the farthest point of the cell sees them
-      const double most = 0.5 / focal * (glm::length(at - centre) + small.cells.grid.size);
+      // max_drift_px as the farthest point of the cell sees them
+      const double most =
+          small.options.max_drift_px / focal * (glm::length(at - centre) + small.cells.grid.size);
       EXPECT_LT(glm::length(moved), most + 1e-4);
       EXPECT_LT(glm::length(glm::cross(moved, normal)), 1e-4);
       EXPECT_NEAR(glm::dot(normal, object.rotation * glm::dvec3(original.normals[source])), 1,
@@ -183,6 +184,26 @@ TEST(CellMesh, MoreDriftMeansFewerTriangles) {
       last = n;
     }
   });
+}
+
+// Triangles whose corners share no view: collapses of an MVMesh make none, those of an SVMesh,
+// given the same views, do.
+TEST(CellMesh, MultiViewCollapsesKeepCommonViews) {
+  const SmallBake& small = shared_bake();
+  const RayCapture rays(small.scene, 2);
+  std::size_t n_multi = 0, n_single = 0;
+  for_each_outside([&](CellId cell, ObjectId object, Representation kind) {
+    if (kind != Representation::multi_view) return;
+    const auto views = views_of_object(small, rays, cell, object, kind);
+    const auto count = [&](Representation as) {
+      CellMeshCounts counts;
+      const CellMesh mesh = derive_mesh(small.bake, cell, object, as, views, small.options, counts);
+      return static_cast<std::size_t>(std::count(mesh.views.begin(), mesh.views.end(), 0));
+    };
+    n_multi += count(Representation::multi_view);
+    n_single += count(Representation::single_view);
+  });
+  EXPECT_GT(2 * n_single, 3 * n_multi);
 }
 
 TEST(CellMesh, SameEachTime) {

@@ -82,6 +82,7 @@ struct SmallBake {
     BakeOptions options;
     options.ts_px = 20;  // so that both kinds occur
     options.resolution_px = 256;
+    options.max_drift_px = 0.4;  // objects are some 40 px wide
     return options;
   }
 
@@ -111,10 +112,13 @@ struct SmallBake {
   }
 
   void derive(Representation kind, const std::filesystem::path& to) const {
+    derive(kind, to, options);
+  }
+  void derive(Representation kind, const std::filesystem::path& to, const BakeOptions& with) const {
     parallel_for(list.size(), 2, [&](std::size_t i) {
       DeriveCounts counts;
       WeightedMeshes meshes =
-          derive_cell(bake, inputs.captures, settings, list[i], kind, options, counts);
+          derive_cell(bake, inputs.captures, settings, list[i], kind, with, counts);
       meshes.made_from = "0123456789abcdef";
       write_weighted_meshes(to / weighted_mesh_name(list[i]), meshes, "test");
     });

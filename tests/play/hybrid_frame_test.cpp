@@ -10,7 +10,8 @@ namespace {
 constexpr int kSize = 256;
 
 struct Stage {
-  Bundle bundle{shared_bundle()};
+  explicit Stage(const std::filesystem::path& folder = shared_bundle()) : bundle(folder) {}
+  Bundle bundle;
   Player player{bundle, make_options()};
   static PlayerOptions make_options() {
     PlayerOptions options;
@@ -186,6 +187,90 @@ TEST(HybridFrame, KindsAndWireframesDrawTheSamePixels) {
   const ImageRgba8 before = stage.draw(Mode::frustum, camera);
   stage.player.draw_kinds(camera, HybridStyle::wireframe);
   EXPECT_EQ(stage.draw(Mode::frustum, camera).pixels, before.pixels);
+}
+
+// Mean dB over covered pixels, of the same cameras, of the bake with another start level.
+double mean_covered_db(double start_error_px) {
+  const SmallBake& small = shared_bake();
+  const TemporaryFolder folder;
+  BakeOptions options = small.options;
+  options.start_error_px = start_error_px;
+  PackInputs inputs = small.inputs;
+  inputs.svmesh = folder.path() / "svmesh", inputs.mvmesh = folder.path() / "mvmesh";
+  make_folder(inputs.svmesh), make_folder(inputs.mvmesh);
+  small.derive(Representation::single_view, inputs.svmesh, options);
+  small.derive(Representation::multi_view, inputs.mvmesh, options);
+  small.pack(folder.path() / "bundle", inputs, small.list);
+  Stage stage(folder.path() / "bundle");
+  Random random(36);
+  double sum = 0;
+  int n = 0;
+  while (n < 40) {
+    const Camera camera = stage.random_camera(random);
+    const ImageRgba8 original = stage.draw(Mode::frustum, camera);
+    const ImageDistance d = compare_images(original, stage.draw(Mode::hybrid, camera), {false});
+    if (d.mse > 0) sum += d.psnr_covered_db, ++n;  // else all that shows is inside the cell
+  }
+  return sum / n;
+}
+
+TEST(HybridFrame, StartLevelsCostATenthOfADecibelAtMost) {
+  const double from_originals = mean_covered_db(0);
+  EXPECT_GT(mean_covered_db(BakeOptions{}.start_error_px), from_originals - 0.1);
+  EXPECT_LT(mean_covered_db(1), from_originals - 0.3);  // coarse levels do cost
+}
+
+// Own centres' texels black, all others' white: a pixel's grey says how much of it each view made.
+TEST(HybridFrame, ViewsAreMixedByTheirWeights) {
+  const TemporaryFolder folder;
+  shared_bake().pack(folder.path() / "bundle");
+  const CellSet& cells = shared_bake().cells;
+  const CellId cell = shared_bake().list.at(shared_bake().list.size() / 2);
+  const auto centres = views_of(cells.grid, cell);
+  {
+    const Bundle bundle(folder.path() / "bundle");
+    for (const CentreId centre : bundle.manifest().centres) {
+      CentreTextures textures = bundle.read_centre(centre);
+      const auto grey = static_cast<std::uint8_t>(centre == centres[0] ? 0 : 200);
+      for (Rgba8& texel : textures.texels) texel = {grey, grey, grey, texel[3]};
+      write_centre_textures(centre_file(folder.path() / "bundle", centre), textures,
+                            TextureFormat::rgba8);
+    }
+  }
+  Stage stage(folder.path() / "bundle");
+  const ReadyCell ready =
+      make_ready_cell(stage.bundle.scene(), cells, cell, stage.bundle.read_cell(cell));
+  std::array<glm::dvec3, kViews> eyes;
+  for (std::size_t k = 0; k < kViews; ++k) eyes[k] = eye_of(cells, centres[k]);
+  int n_mixed = 0;
+  for (const ReadyObject& object : ready.objects)
+    for (const double step : {0.1, 0.2, 0.3, 0.4}) {
+      if (object.kind != Representation::multi_view || object.n_indices == 0) continue;
+      const glm::dvec3 middle = 0.5 * (glm::dvec3(object.lo) + glm::dvec3(object.hi));
+      Camera camera;
+      // Across the line of sight, towards the centre that is most aside.
+      const glm::dvec3 aside = glm::normalize(glm::cross(middle - eyes[0], glm::dvec3(0, 0, 1)));
+      std::size_t most = 1;
+      for (std::size_t k = 2; k < kViews; ++k)
+        if (glm::dot(eyes[k] - eyes[0], aside) > glm::dot(eyes[most] - eyes[0], aside)) most = k;
+      camera.eye = glm::mix(eyes[0], eyes[most], step);
+      camera.forward = glm::normalize(middle - camera.eye);
+      const ViewChoice choice = choose_views(camera.eye, middle, eyes, 0x7f);
+      if (choice.view[0] != 0 && choice.view[1] != 0) continue;
+      const double others = choice.view[0] == 0 ? choice.weight[1] : choice.weight[0];
+      const ImageRgba8 picture = stage.draw(Mode::hybrid, camera);
+      int n_textured = 0, n_as_weighted = 0;  // a view may not show a pixel
+      for (int y = kSize / 2 - 12; y < kSize / 2 + 12; ++y)
+        for (int x = kSize / 2 - 12; x < kSize / 2 + 12; ++x)
+          if (picture.at(x, y)[3] == 255) {
+            ++n_textured;
+            n_as_weighted += std::abs(picture.at(x, y)[1] - 200 * others) < 8;
+          }
+      if (n_textured < 200) continue;
+      EXPECT_GT(n_as_weighted, 0.4 * n_textured) << step;
+      n_mixed += others > 0.1 && others < 0.4;
+    }
+  EXPECT_GT(n_mixed, 0);
 }
 
 }  // namespace
