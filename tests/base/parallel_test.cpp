@@ -49,6 +49,28 @@ TEST(ParallelFor, RethrowsTheLowestFailure) {
     }
 }
 
+// Also when the other failure comes last: 1 waits until 0 has thrown, and is given time to be
+// noted.
+TEST(ParallelFor, LaterFailuresOfHigherIndicesDoNotCount) {
+  std::atomic<bool> both_run = false, first_threw = false;
+  try {
+    parallel_for(2, 2, [&](std::size_t i) {
+      if (i == 0) {
+        while (!both_run) std::this_thread::yield();
+        first_threw = true;
+        throw std::runtime_error("0");
+      }
+      both_run = true;
+      while (!first_threw) std::this_thread::yield();
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+      throw std::runtime_error("1");
+    });
+    FAIL();
+  } catch (const std::runtime_error& e) {
+    EXPECT_STREQ(e.what(), "0");
+  }
+}
+
 TEST(ParallelFor, StopsAfterAFailure) {
   std::atomic<std::size_t> n_started{0};
   EXPECT_THROW(parallel_for(1000000, 2,

@@ -71,6 +71,23 @@ TEST(FramePlan, WallAcrossTheFrameIsKept) {
   EXPECT_EQ(plan_frustum(plan_scene, camera).draws.size(), 0u);
 }
 
+// One object beyond each of the four sides, one behind, one ahead.
+TEST(FramePlan, EverySideCulls) {
+  Scene scene = make_small_scene(0);
+  Camera camera;
+  camera.eye = {0, 0, 5};
+  const glm::dvec3 beside[] = {{30, 90, 5}, {30, -90, 5}, {30, 0, 95}, {30, 0, -85}, {-30, 0, 5}};
+  for (const glm::dvec3& at : beside) {
+    scene.objects = {{"torus", MeshId(0), 0, at, {1, 0, 0, 0}, 1}};
+    const PlanScene plan_scene = make_plan_scene(scene, build_scene_levels(scene, false));
+    EXPECT_TRUE(plan_frustum(plan_scene, camera).draws.empty())
+        << at.x << " " << at.y << " " << at.z;
+  }
+  scene.objects = {{"torus", MeshId(0), 0, {30, 0, 5}, {1, 0, 0, 0}, 1}};
+  const PlanScene ahead = make_plan_scene(scene, build_scene_levels(scene, false));
+  EXPECT_EQ(plan_frustum(ahead, camera).draws.size(), 1u);
+}
+
 TEST(FramePlan, FrustumRunsFrontToBackWithTiesById) {
   Scene scene = make_small_scene(0);
   for (const double x : {60.0, 20.0, 40.0, 20.0})
