@@ -12,6 +12,7 @@ constexpr double kLeastDistance = 5;
 // Cosine between normal and line of sight over which a surface comes from edge-on to facing.
 constexpr double kEdgeOnWidth = 0.3;
 constexpr double kPatchPx = 50;      // area for which drift is the root mean square itself, px^2
+constexpr double kOwnShare = 0.5;    // of the drift of what collapses, in that of the whole patch
 constexpr float kRimWeight = 0.39f;  // the paper's for silhouettes is 0.4 or 0.5
 
 }  // namespace
@@ -77,12 +78,15 @@ float ViewMetric::projected_length_px(std::uint32_t u, std::uint32_t v) const {
 
 double ViewMetric::drift_px(std::uint32_t u, std::uint32_t v) const {
   const glm::dvec3 p = glm::dvec3(vertices_.positions[v]) - origin_;
+  const auto rms_px = [&](double value, double weight) {
+    return weight > 0 ? std::sqrt(std::max(value, 0.0) / weight) * px_per_unit_[v] : 0.0;
+  };
+  const double of_u = quadrics_[u].value(p);
   const double weight = quadrics_[u].weight + quadrics_[v].weight;
-  const double value = quadrics_[u].value(p) + quadrics_[v].value(p);
-  if (!(weight > 0)) return 0;
-  const double rms_px = std::sqrt(std::max(value, 0.0) / weight) * px_per_unit_[v];
   const double area_px = weight * px_per_unit_[v] * px_per_unit_[v];
-  return rms_px * std::sqrt(std::sqrt(area_px / kPatchPx));
+  return std::max(
+      rms_px(of_u + quadrics_[v].value(p), weight) * std::sqrt(std::sqrt(area_px / kPatchPx)),
+      kOwnShare * rms_px(of_u, quadrics_[u].weight));
 }
 
 float ViewMetric::cost(std::uint32_t u, std::uint32_t v) const {

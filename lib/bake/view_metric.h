@@ -40,10 +40,12 @@ struct ViewMetricOptions {
 ///   1 where the surface is seen edge-on from some point of the cell, or is a silhouette by the
 ///   paper's weights, falling to the parallax that a displacement of a facing surface causes, half
 ///   the cell's size over the distance: the texture is projected, so only its depth is wrong.
-/// The fourth root stands halfway between the same rms everywhere, which spends triangles on small
-/// patches, and the least sum of squares, which leaves the large ones crude.
-/// Pixels, in l and drift, are root mean squares over points of the cell (`samples`): by the
-/// nearest point alone, objects next to a cell would hardly be simplified at all.
+/// It is no less than half the rms over u's part alone: a thin staff that collapses into a broad
+/// base would else hardly count, and leave a shard. The fourth root stands halfway between the same
+/// rms everywhere, which spends triangles on small patches, and the least sum of squares, which
+/// leaves the large ones crude. Pixels, in l and drift, are root mean squares over points of the
+/// cell (`samples`): by the nearest point alone, objects next to a cell would hardly be simplified
+/// at all.
 class ViewMetric {
  public:
   ViewMetric(const ViewVertices& vertices, std::span<const Triangle> triangles,

@@ -164,6 +164,20 @@ TEST(ViewMetric, DriftGrowsWithHeightAndEndsAtTl) {
     }
 }
 
+// A small patch that collapses into a large one counts by its own drift.
+TEST(ViewMetric, LargePatchesDoNotHideSmallOnes) {
+  for (const float size : {10.0f, 100.0f, 1000.0f}) {
+    // 0, 1, 2: small, in the plane x = 100; 3, 4, 5: large, in the plane x = 99
+    const ViewVertices v = make_vertices(
+        {{100, 0, 0}, {100, 0, 0.1f}, {100, 0.1f, 0}, {99, 0, 0}, {99, 0, size}, {99, size, 0}},
+        {-1, 0, 0}, 0.5f);
+    const std::vector<Triangle> both{{0, 1, 2}, {3, 4, 5}};
+    const ViewMetricOptions options = make_options();
+    const double own_px = kFocal / 99;
+    EXPECT_GE(ViewMetric(v, both, options).cost(0, 3), 0.99 * 4.5 / 0.5 * 0.5 * own_px) << size;
+  }
+}
+
 TEST(ViewMetric, NothingDriftsInAPlane) {
   Random random(4);
   for (int k = 0; k < 50; ++k) {
