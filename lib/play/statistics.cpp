@@ -85,6 +85,10 @@ std::vector<double> missing_px(const ModeTimeline& mode) {
   return values;
 }
 
+double rays_per_s(const Timeline& timeline, double ms) {
+  return timeline.width_px * timeline.height_px / (1e-3 * ms);
+}
+
 Json mode_to_json(const Timeline& timeline, const ModeTimeline& mode) {
   const std::size_t n = mode.frames.size();
   const Summary ms = summarize(values_of(mode, &FrameRecord::ms));
@@ -101,8 +105,7 @@ Json mode_to_json(const Timeline& timeline, const ModeTimeline& mode) {
                {"texture_bytes_mean", mean_of(values_of(mode, &FrameRecord::texture_bytes))},
                {"draws_mean", mean_of(values_of(mode, &FrameRecord::n_draws))},
                {"missing_px_mean", mean_of(missing_px(mode))}};
-  if (mode.mode == kRaycast)
-    json["rays_per_s"] = timeline.width_px * timeline.height_px / (1e-3 * ms.mean);
+  if (mode.mode == kRaycast) json["rays_per_s"] = rays_per_s(timeline, ms.mean);
   return json;
 }
 
@@ -276,16 +279,16 @@ std::string format_markdown(const Timeline& timeline) {
     for (std::size_t c = 1; c < rows[0].size(); ++c) out += "---:|";
     out += '\n';
   }
-  const Json speedup = speedups(timeline);
+  std::string factors;
+  const Json speedup = speedups(timeline);  // items() refers to it
   for (const auto& [name, factor] : speedup.items())
-    out += (&*speedup.begin() == &factor ? "\nTimes of other modes over hybrid's: " : ", ") +
-           name.substr(name.rfind('_') + 1) + " " + fixed(factor.get<double>(), 2);
-  if (!speedup.empty()) out += ".\n";
+    factors += (factors.empty() ? "" : ", ") + name + " " + fixed(factor.get<double>(), 2);
+  if (!factors.empty()) out += "\nSpeedup: " + factors + ".\n";
   for (const ModeTimeline& mode : timeline.modes)
     if (mode.mode == kRaycast)
-      out +=
-          "raycast: " + fixed(mode_to_json(timeline, mode)["rays_per_s"].get<double>() / 1e6, 1) +
-          " million rays a second.\n";
+      out += "\nraycast: " +
+             fixed(rays_per_s(timeline, mean_of(values_of(mode, &FrameRecord::ms))) / 1e6, 1) +
+             " million rays a second.\n";
   return out;
 }
 
