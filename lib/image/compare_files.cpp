@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "base/table.h"
 #include "image/io.h"
 
 namespace viewcell {
@@ -76,29 +77,8 @@ void check_partners(const std::set<std::string>& names, const fs::path& folder,
                        "has no '" + name + "', which '" + folder.string() + "' has");
 }
 
-// --- table ---
-
-std::string format_number(double x, int decimals) {
-  if (std::isnan(x)) return "-";
-  char text[64];
-  std::snprintf(text, sizeof text, "%.*f", decimals, x);
-  return text;
-}
-
-// The first column to the left, the others to the right, two spaces between.
-std::string align(const std::vector<std::vector<std::string>>& rows) {
-  std::vector<std::size_t> widths(rows.front().size());
-  for (const auto& row : rows)
-    for (std::size_t c = 0; c < row.size(); ++c) widths[c] = std::max(widths[c], row[c].size());
-  std::string out;
-  for (const auto& row : rows) {
-    for (std::size_t c = 0; c < row.size(); ++c) {
-      const std::string pad(widths[c] - row[c].size(), ' ');
-      out += c == 0 ? row[c] + pad : "  " + pad + row[c];
-    }
-    out += "\n";
-  }
-  return out;
+std::string format_number(double x, int n_decimals) {
+  return format_fixed(x, n_decimals, "-");
 }
 
 }  // namespace
@@ -183,7 +163,7 @@ std::string format_table(const std::vector<NamedDistance>& pairs) {
     add_row("min", [&](const Measure& m) { return spread_of(pairs, m.value).min; });
     add_row("max", [&](const Measure& m) { return spread_of(pairs, m.value).max; });
   }
-  return align(rows);
+  return format_table(rows);
 }
 
 }  // namespace viewcell

@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "base/error.h"
+#include "base/table.h"
 #include "image/metrics.h"
 
 namespace viewcell {
@@ -163,24 +164,19 @@ void check_timeline(const Timeline& timeline) {
                    timeline.frames.size());
 }
 
-using Row = std::vector<std::string>;
-
-std::string fixed(double x, int n_digits, bool with_sign = false) {
-  if (std::isnan(x)) return "";
-  char text[40];
-  std::snprintf(text, sizeof text, with_sign ? "%+.*f" : "%.*f", n_digits, x);
-  return text;
+std::string fixed(double x, int n_decimals, bool with_sign = false) {
+  return format_fixed(x, n_decimals, "", with_sign);
 }
 
-Row make_row(const Timeline& timeline, const ModeTimeline& mode) {
+std::vector<std::string> make_row(const Timeline& timeline, const ModeTimeline& mode) {
   const std::size_t n = mode.frames.size();
   const Summary ms = summarize(values_of(mode, &FrameRecord::ms));
-  Row row{mode.mode,
-          fixed(ms.mean, 2),
-          fixed(ms.median, 2),
-          fixed(ms.p95, 2),
-          fixed(mean_of(values_of(mode, &FrameRecord::n_triangles)), 0),
-          fixed(mean_of(values_of(mode, &FrameRecord::n_draws)), 0)};
+  std::vector<std::string> row{mode.mode,
+                               fixed(ms.mean, 2),
+                               fixed(ms.median, 2),
+                               fixed(ms.p95, 2),
+                               fixed(mean_of(values_of(mode, &FrameRecord::n_triangles)), 0),
+                               fixed(mean_of(values_of(mode, &FrameRecord::n_draws)), 0)};
   for (const bool covered : {false, true}) {
     const double db = summarize_db(n, quality_of(mode), covered).summary.mean;
     const double over = db - summarize_db(n, yardstick_of(timeline), covered).summary.mean;
@@ -192,10 +188,10 @@ Row make_row(const Timeline& timeline, const ModeTimeline& mode) {
 }
 
 // Header first.
-std::vector<Row> make_rows(const Timeline& timeline) {
+TableRows make_rows(const Timeline& timeline) {
   check_timeline(timeline);
-  std::vector<Row> rows{{"mode", "mean ms", "median", "p95", "triangles", "draws", "dB", "over",
-                         "covered dB", "over"}};
+  TableRows rows{{"mode", "mean ms", "median", "p95", "triangles", "draws", "dB", "over",
+                  "covered dB", "over"}};
   for (const ModeTimeline& mode : timeline.modes) rows.push_back(make_row(timeline, mode));
   if (timeline.floor_ms.empty()) return rows;
   const Summary ms = summarize(timeline.floor_ms);
@@ -234,7 +230,7 @@ Json make_statistics(const Timeline& timeline) {
           {"yardstick",
            {{"psnr_db", to_json(summarize_db(n, yardstick_of(timeline), false))},
             {"psnr_covered_db", to_json(summarize_db(n, yardstick_of(timeline), true))}}},
-          {"coverage_mean", frame_mean(timeline, &FrameInfo::coverage)},
+          {"coverage_mean", number_or_null(frame_mean(timeline, &FrameInfo::coverage))},
           {"luminance_deviation_mean",
            number_or_null(frame_mean(timeline, &FrameInfo::luminance_deviation))},
           {"speedup", speedups(timeline)},
@@ -243,25 +239,11 @@ Json make_statistics(const Timeline& timeline) {
 }
 
 std::string format_mode_table(const Timeline& timeline) {
-  const std::vector<Row> rows = make_rows(timeline);
-  std::vector<std::size_t> widths(rows[0].size(), 0);
-  for (const Row& row : rows)
-    for (std::size_t c = 0; c < row.size(); ++c) widths[c] = std::max(widths[c], row[c].size());
-  std::string table;
-  for (const Row& row : rows) {
-    for (std::size_t c = 0; c < row.size(); ++c) {
-      const std::string padding(widths[c] - row[c].size(), ' ');
-      table += c == 0 ? row[c] + padding : "  " + padding + row[c];
-    }
-    table.erase(table.find_last_not_of(' ') + 1);
-    table += '\n';
-  }
-  return table +
+  return format_table(make_rows(timeline)) +
          "over: the reference shifted by half a pixel; floor: a clear and a textured quad\n";
 }
 
 std::string format_markdown(const Timeline& timeline) {
-  const std::vector<Row> rows = make_rows(timeline);
   std::string out = std::to_string(timeline.frames.size()) + " frames of " +
                     std::to_string(timeline.width_px) + " x " + std::to_string(timeline.height_px) +
                     ", objects on " + fixed(100 * frame_mean(timeline, &FrameInfo::coverage), 1) +
@@ -270,15 +252,7 @@ std::string format_markdown(const Timeline& timeline) {
                     timeline.renderer + ", " + std::to_string(timeline.gl_threads) +
                     " raster threads, raycast on " + std::to_string(timeline.n_threads) +
                     ". Reference: " + timeline.reference + ".\n\n";
-  for (std::size_t r = 0; r < rows.size(); ++r) {
-    out += "|";
-    for (const std::string& cell : rows[r]) out += " " + cell + " |";
-    out += '\n';
-    if (r > 0) continue;
-    out += "|---|";
-    for (std::size_t c = 1; c < rows[0].size(); ++c) out += "---:|";
-    out += '\n';
-  }
+  out += format_markdown_table(make_rows(timeline));
   std::string factors;
   const Json speedup = speedups(timeline);  // items() refers to it
   for (const auto& [name, factor] : speedup.items())

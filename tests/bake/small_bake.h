@@ -4,6 +4,7 @@
 #include "bake/derive.h"
 #include "bake/pack.h"
 #include "base/file.h"
+#include "capture/capture_centre.h"
 #include "capture/ray_capture.h"
 #include "capture/shapes.h"
 #include "image/fill.h"
@@ -99,13 +100,14 @@ struct SmallBake {
   void capture() const {
     const RayCapture rays(scene, 2);
     const auto centres = centres_of(cells, list);
+    const auto points = place_points(scene);
+    const CaptureEngine engine = [&](ObjectId object, const CaptureView& view, const Crop& crop) {
+      return rays.capture(object, view, crop);
+    };
     parallel_for(centres.size(), 2, [&](std::size_t i) {
-      std::vector<CaptureTile> tiles;
-      for (const ObjectId object : objects_seen_from(cells, centres[i]))
-        if (auto view =
-                classify_view(scene, rays, object, eye_of(cells, centres[i]), settings.density))
-          tiles.push_back(std::move(view->tile));
-      write_captures(capture_file_of(inputs.captures, centres[i]), tiles, settings);
+      write_captures(capture_file_of(inputs.captures, centres[i]),
+                     capture_centre(cells, centres[i], points, settings.density, engine).tiles,
+                     settings);
     });
     write_file(inputs.captures / kCapturesManifest,
                format_json(format_settings(settings, test_provenance())));

@@ -18,7 +18,10 @@ cd "$work/run"
 
 bake bundle
 expect 0 "$bin/play" bundle --path park/path.json --frames 2 --size 64x64 \
-  --modes geometry,frustum,lod,hybrid,raycast --stats stats.json
+  --modes geometry,frustum,lod,hybrid,raycast,lod-equal,geometry-two-sided,frustum-two-sided \
+  --stats stats.json
+expect 0 "$bin/play" bundle --path park/path.json --frames 3 --size 64x64 --quality-every 2 --stats some.json
+expect 0 "$bin/play" bundle --path park/path.json --frames 2 --size 64x64 --no-quality --stats none.json
 cat >check.py <<'PY'
 import json, sys
 import jsonschema
@@ -32,7 +35,7 @@ PY
 check() { python3 check.py "$schemas/$1.schema.json" "$2"; }
 for pair in scene:park/scene.json path:park/path.json cells:cells.json \
   captures:captures/captures.json bundle:bundle/bundle.json scene:bundle/scene.json \
-  stats:stats.json; do
+  stats:stats.json stats:some.json stats:none.json; do
   check "${pair%%:*}" "${pair#*:}" || fail "$pair"
 done
 # They bite.

@@ -24,12 +24,11 @@ std::size_t count_texels(const Bundle& bundle, CellId cell) {
   return n;
 }
 
+const ResidencyOptions kOnDemand{.pool_texels = 8u << 20, .prefetch = false};
+
 TEST(Residency, EnteredCellsAreWhole) {
   const Bundle bundle(shared_bundle());
-  ResidencyOptions options;
-  options.pool_texels = 8u << 20;
-  options.prefetch = false;
-  Residency residency(shared_context().gl(), bundle, options);
+  Residency residency(shared_context().gl(), bundle, kOnDemand);
   for (const CellId cell : shared_bake().list) {
     const ResidentCell& entered = residency.enter(camera_at(bundle.cells(), cell));
     EXPECT_EQ(entered.ready->cell, cell);
@@ -52,10 +51,7 @@ TEST(Residency, EnteredCellsAreWhole) {
 // code is that of its depth.
 TEST(Residency, ProjectionsAreTheViews) {
   const Bundle bundle(shared_bundle());
-  ResidencyOptions options;
-  options.pool_texels = 8u << 20;
-  options.prefetch = false;
-  Residency residency(shared_context().gl(), bundle, options);
+  Residency residency(shared_context().gl(), bundle, kOnDemand);
   const CellId cell{4};
   const ResidentCell& entered = residency.enter(camera_at(bundle.cells(), cell));
   const auto views = views_of(bundle.cells().grid, cell);
