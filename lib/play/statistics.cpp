@@ -105,7 +105,7 @@ Json mode_to_json(const Timeline& timeline, const ModeTimeline& mode) {
                {"psnr_covered_db", to_json(summarize_db(n, quality_of(mode), true))},
                {"texture_bytes_mean", mean_of(values_of(mode, &FrameRecord::texture_bytes))},
                {"draws_mean", mean_of(values_of(mode, &FrameRecord::n_draws))},
-               {"missing_px_mean", mean_of(missing_px(mode))}};
+               {"missing_px_mean", number_or_null(mean_of(missing_px(mode)))}};
   if (mode.mode == kRaycast) json["rays_per_s"] = rays_per_s(timeline, ms.mean);
   return json;
 }
