@@ -187,12 +187,11 @@ void decode_tiles(const std::vector<std::uint8_t>& blocks, CentreTextures& t) {
 
 }  // namespace
 
-CentreTextures Bundle::read_centre(CentreId centre) const {
+CentreTextures Bundle::read_centre(CentreId centre, std::vector<Rgba8> texels) const {
   const SectionReader reader(centre_file(folder_, centre), kCentreKind);
-  CentreTextures t;
-  t.tiles = reader.read<BundleTile>("TILES");
+  CentreTextures t{reader.read<BundleTile>("TILES"), std::move(texels)};
   if (manifest_.texture_format == TextureFormat::rgba8) {
-    t.texels = reader.read<Rgba8>("TEXELS");
+    reader.read("TEXELS", t.texels);
     check_tiles(t, t.texels.size(), scene_, reader);
     return t;
   }

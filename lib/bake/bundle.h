@@ -71,7 +71,8 @@ class Bundle {
   bool has(CellId cell) const;
   bool has(CentreId centre) const;
   CellGeometry read_cell(CellId cell) const;
-  CentreTextures read_centre(CentreId centre) const;
+  /// texels: memory to read into, its contents lost.
+  CentreTextures read_centre(CentreId centre, std::vector<Rgba8> texels = {}) const;
 
  private:
   std::filesystem::path folder_;

@@ -52,13 +52,19 @@ class SectionReader {
   /// The section's values; its hash and size are checked. Throws InputError.
   template <typename T>
   std::vector<T> read(const std::string& tag) const {
+    std::vector<T> values;
+    read(tag, values);
+    return values;
+  }
+  /// The same into memory that is there already: fresh pages cost as much as the reading.
+  template <typename T>
+  void read(const std::string& tag, std::vector<T>& values) const {
     static_assert(std::is_trivially_copyable_v<T>);
     const Section& section = find(tag);
     if (section.n_bytes % sizeof(T) != 0)
       fail(tag, "has a size that is no whole number of records");
-    std::vector<T> values(section.n_bytes / sizeof(T));
+    values.resize(section.n_bytes / sizeof(T));
     read_bytes(section, reinterpret_cast<char*>(values.data()));
-    return values;
   }
   std::uint64_t n_bytes(const std::string& tag) const { return find(tag).n_bytes; }
   [[noreturn]] void fail(const std::string& tag, const std::string& what) const;

@@ -1,6 +1,12 @@
 #include "play/loader.h"
 
 namespace viewcell {
+namespace {
+
+// As many centres as a new cell needs, about.
+constexpr std::size_t kMostSpare = 4;
+
+}  // namespace
 
 Loader::Loader(const Bundle& bundle) : bundle_(bundle), thread_([this] { work(); }) {}
 
@@ -27,13 +33,26 @@ std::vector<Loaded> Loader::collect() {
   return std::exchange(done_, {});
 }
 
-Loaded Loader::read(const LoadKey& key) const {
-  Loaded out{key, nullptr, nullptr};
+void Loader::recycle(std::vector<Rgba8> texels) {
+  const std::lock_guard lock(mutex_);
+  if (spare_.size() < kMostSpare) spare_.push_back(std::move(texels));
+}
+
+std::vector<Rgba8> Loader::take_spare() {
+  const std::lock_guard lock(mutex_);
+  if (spare_.empty()) return {};
+  std::vector<Rgba8> out = std::move(spare_.back());
+  spare_.pop_back();
+  return out;
+}
+
+Loaded Loader::read(const LoadKey& key) {
+  Loaded out{key, nullptr, {}};
   if (const auto* cell = std::get_if<CellId>(&key))
     out.cell = std::make_shared<ReadyCell>(
         make_ready_cell(bundle_.scene(), bundle_.cells(), *cell, bundle_.read_cell(*cell)));
   else
-    out.textures = std::make_shared<CentreTextures>(bundle_.read_centre(std::get<CentreId>(key)));
+    out.textures = bundle_.read_centre(std::get<CentreId>(key), take_spare());
   return out;
 }
 

@@ -20,8 +20,8 @@ using LoadKey = std::variant<CellId, CentreId>;
 
 struct Loaded {
   LoadKey key;
-  std::shared_ptr<const ReadyCell> cell;           ///< of a CellId
-  std::shared_ptr<const CentreTextures> textures;  ///< of a CentreId
+  std::shared_ptr<const ReadyCell> cell;  ///< of a CellId
+  CentreTextures textures;                ///< of a CentreId
 };
 
 /// Reads what it is asked for, in the order asked. Makes no GL calls. All functions are called from
@@ -39,16 +39,20 @@ class Loader {
   /// What has been read since the last call, first read first. Rethrows what reading threw.
   std::vector<Loaded> collect();
   /// Reads one at once, on the calling thread.
-  Loaded read(const LoadKey& key) const;
+  Loaded read(const LoadKey& key);
+  /// Takes back the memory of texels that are in GL memory now; the next centre is read into it.
+  void recycle(std::vector<Rgba8> texels);
 
  private:
   void work();
+  std::vector<Rgba8> take_spare();
 
   const Bundle& bundle_;
   std::mutex mutex_;  // guards all below
   std::condition_variable wake_;
   std::deque<LoadKey> waiting_;
   std::vector<Loaded> done_;
+  std::vector<std::vector<Rgba8>> spare_;
   std::exception_ptr failure_;
   bool is_stopping_ = false;
   std::thread thread_;  // last: it starts when all else is made

@@ -109,9 +109,9 @@ void Residency::take(Loaded loaded) {
   }
 }
 
-void Residency::add_centre(CentreId id, std::shared_ptr<const CentreTextures> textures) {
+void Residency::add_centre(CentreId id, CentreTextures textures) {
   if (centres_.contains(id)) return;
-  const auto n = static_cast<std::uint32_t>(textures->texels.size());
+  const auto n = static_cast<std::uint32_t>(textures.texels.size());
   auto first = pool_.allocate(n);
   while (!first && evict_a_centre()) first = pool_.allocate(n);
   if (!first)
@@ -122,12 +122,13 @@ void Residency::add_centre(CentreId id, std::shared_ptr<const CentreTextures> te
 }
 
 std::uint32_t Residency::upload_some(Centre& centre, std::uint32_t most) {
-  const auto total = static_cast<std::uint32_t>(centre.textures->texels.size());
-  const std::uint32_t n = std::min(most, total - centre.n_written);
-  if (n > 0)
-    pool_.write(centre.first + centre.n_written, centre.textures->texels.data() + centre.n_written,
-                n);
+  if (centre.is_whole()) return 0;
+  const std::vector<Rgba8>& texels = centre.textures.texels;
+  const std::uint32_t n =
+      std::min(most, static_cast<std::uint32_t>(texels.size()) - centre.n_written);
+  pool_.write(centre.first + centre.n_written, texels.data() + centre.n_written, n);
   centre.n_written += n;
+  if (centre.n_written == texels.size()) loader_.recycle(std::exchange(centre.textures.texels, {}));
   return n;
 }
 
@@ -169,7 +170,7 @@ void Residency::project_views(CellId id, ResidentCell& cell) const {
   for (std::size_t k = 0; k < views.size(); ++k) {
     const auto centre = centres_.find(views[k]);
     if (centre == centres_.end()) continue;
-    for (const BundleTile& tile : centre->second.textures->tiles) {
+    for (const BundleTile& tile : centre->second.textures.tiles) {
       const int slot = slot_of[static_cast<std::size_t>(tile.object)];
       if (slot < 0) continue;
       const auto at = static_cast<std::size_t>(slot);

@@ -54,9 +54,9 @@ class Residency {
   struct Centre {
     std::uint32_t first = 0;
     std::uint32_t n_written = 0;
-    std::shared_ptr<const CentreTextures> textures;
+    CentreTextures textures;  // its texels: until all are written
     std::size_t used_at = 0;  // frame
-    bool is_whole() const { return n_written == textures->texels.size(); }
+    bool is_whole() const { return textures.texels.empty(); }
   };
   struct Cell {
     ResidentCell resident;
@@ -66,7 +66,7 @@ class Residency {
   CellId cell_of(const Camera& camera) const;
   std::vector<CentreId> centres_needed(CellId cell) const;
   void take(Loaded loaded);
-  void add_centre(CentreId id, std::shared_ptr<const CentreTextures> textures);
+  void add_centre(CentreId id, CentreTextures textures);
   std::uint32_t upload_some(Centre& centre, std::uint32_t most);
   void upload_ahead();
   void bring(CellId cell);

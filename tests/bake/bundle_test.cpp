@@ -118,6 +118,18 @@ TEST(Bundle, TexturesReadBack) {
   }
 }
 
+// Memory that held a longer or a shorter centre leaves no trace.
+TEST(Bundle, TexturesAreReadIntoUsedMemory) {
+  const BundleCopy copy;
+  const Bundle bundle(copy.path);
+  const CentreTextures made = make_textures();
+  write_centre_textures(centre_file(copy.path, CentreId(4)), made, TextureFormat::rgba8);
+  for (const std::size_t n : {std::size_t{3}, made.texels.size() + 1000}) {
+    const std::vector<Rgba8> used(n, Rgba8{9, 9, 9, 9});
+    EXPECT_EQ(bundle.read_centre(CentreId(4), used).texels, made.texels);
+  }
+}
+
 TEST(Bundle, CompressedTexturesReadBackNearly) {
   const BundleCopy copy;
   std::string manifest = read_file(copy.path / kManifestName);

@@ -138,6 +138,22 @@ TEST(Residency, WalkingSlowlyStallsOnce) {
   EXPECT_EQ(residency.n_stalls(), 1u);
 }
 
+TEST(Loader, ReadsIntoWhatIsTakenBack) {
+  const Bundle bundle(shared_bundle());
+  Loader loader(bundle);
+  for (int round = 0; round < 2; ++round)
+    for (const CentreId centre : bundle.manifest().centres) {
+      Loaded loaded = loader.read(centre);
+      EXPECT_EQ(loaded.textures.texels, bundle.read_centre(centre).texels);
+      const Rgba8* memory = loaded.textures.texels.data();
+      loaded.textures.texels.resize(1);
+      loader.recycle(std::move(loaded.textures.texels));
+      loaded = loader.read(centre);  // as long as before: it fits
+      EXPECT_EQ(loaded.textures.texels.data(), memory);
+      loader.recycle(std::move(loaded.textures.texels));
+    }
+}
+
 // Walking to and fro with room for one cell and a little more must end in whole cells still.
 TEST(Residency, EvictsInsteadOfFailing) {
   const Bundle bundle(shared_bundle());
