@@ -17,7 +17,8 @@ namespace viewcell {
 /// anything malformed, and for a mesh with no faces.
 TriMesh read_mesh(const std::filesystem::path& file);
 
-/// Binary little-endian PLY: positions, and normals and colours where present. comments: lines of
+/// Binary little-endian PLY: positions, and normals, colours and texture coordinates (as a list
+/// "texcoord" of each face) where present. comments: lines of
 /// provenance. Whole or not at all.
 void write_ply(const std::filesystem::path& file, const TriMesh& mesh,
                const std::vector<std::string>& comments = {});

@@ -104,6 +104,24 @@ TriMesh parse_ply_mesh(std::string_view bytes, const std::filesystem::path& file
   return mesh;
 }
 
+namespace {
+
+// The list that MeshLab writes and reads: u, v of each corner.
+void add_corner_texcoords(PlyElement& faces, const std::vector<glm::vec2>& texcoords) {
+  VIEWCELL_CHECK(texcoords.size() == 3 * faces.count, texcoords.size(), faces.count);
+  PlyColumn column;
+  column.name = "texcoord";
+  column.is_list = true;
+  std::vector<float> values;
+  values.reserve(2 * texcoords.size());
+  for (const glm::vec2& uv : texcoords) values.insert(values.end(), {uv.x, uv.y});
+  column.values = std::move(values);
+  for (std::uint64_t row = 0; row <= faces.count; ++row) column.starts.push_back(6 * row);
+  faces.columns.push_back(std::move(column));
+}
+
+}  // namespace
+
 void write_ply(const std::filesystem::path& file, const TriMesh& mesh,
                const std::vector<std::string>& comments) {
   PlyDocument ply;
@@ -123,6 +141,7 @@ void write_ply(const std::filesystem::path& file, const TriMesh& mesh,
   }
   PlyElement faces{"face", mesh.triangles.size(), {}};
   add_triangles(faces, "vertex_indices", mesh.triangles);
+  if (!mesh.texcoords.empty()) add_corner_texcoords(faces, mesh.texcoords);
   ply.elements = {std::move(vertices), std::move(faces)};
   write_file(file, format_ply(ply));
 }

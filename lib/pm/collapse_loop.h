@@ -18,34 +18,58 @@ struct CollapseLimits {
   float max_cost = std::numeric_limits<float>::infinity();  ///< stop when the cheapest costs more
   /// A triangle's normal may turn by up to acos of this in one collapse.
   float min_cosine = 0.2f;
+  /// Costs that a collapse has changed are looked at again only when they come to the top of the
+  /// heap [Cohen et al. 1997]: fewer evaluations, an order that is nearly the same.
+  bool lazy = false;
 };
 
 struct CollapseCounts {
   std::size_t n_collapses = 0;
+  std::size_t n_costs = 0;                             ///< evaluations of the metric
   std::array<std::size_t, kRefusalKinds> n_refused{};  ///< by Refusal
-  float last_cost = 0;  ///< the highest cost of a collapse that was made
+  float last_cost = 0;                                 ///< the highest cost of a collapse made
 };
 
-/// Half-edge collapses in order of cost, one candidate a vertex (its cheapest legal target) in an
-/// indexed heap [Chen06 4]. An illegal candidate is replaced by the vertex's next best, or parked
-/// until its surroundings change; it does not end the loop (trap 14).
+/// What a metric has:
+/// - float cost(u, v): of collapsing u into v, +infinity for never;
+/// - bool or Refusal allows(mesh, u, v): a last check before the collapse is made;
+/// - void traced(u, v, trace), if there is one: told what happened to the triangles;
+/// - void collapsed(u, v): told after it.
+/// For full-edge collapses:
+/// - glm::vec3 place(u, v): where both go; cost and place are the same for (u, v) and (v, u);
+/// - void collapsed(u, v, place): moves v.
+/// Metric::kReach (1 where there is none): 1 when a collapse u -> v changes costs of pairs with v
+/// only; 2 when it changes those of every vertex around v.
 ///
-/// Metric: float cost(u, v): of collapsing u into v, +infinity for never;
-///         bool allows(mesh, u, v): a last check before the collapse is made;
-///         void collapsed(u, v): told after it; costs of pairs without u or v must not change.
+/// Collapses in order of cost, one candidate a vertex (its cheapest legal target) in an indexed
+/// heap [Chen06 4]. An illegal candidate is replaced by the vertex's next best, or parked until its
+/// surroundings change; it does not end the loop (trap 14).
 template <typename Metric>
 class CollapseLoop {
  public:
   CollapseLoop(CollapseMesh& mesh, Metric& metric)
-      : mesh_(mesh), metric_(metric), heap_(size32(mesh)), target_(mesh.n_vertices(), 0) {
+      : mesh_(mesh),
+        metric_(metric),
+        heap_(size32(mesh)),
+        target_(mesh.n_vertices(), 0),
+        stale_(mesh.n_vertices(), false) {
     for (std::uint32_t u = 0; u < target_.size(); ++u) choose(u);
   }
 
   /// Goes on from where the last call stopped.
   CollapseCounts run(const CollapseLimits& limits) {
+    return run(limits, [](std::uint32_t, std::uint32_t, float, const CollapseTrace&) {});
+  }
+  /// made(u, v, cost, trace) is called after each collapse.
+  template <typename Made>
+  CollapseCounts run(const CollapseLimits& limits, Made&& made) {
     CollapseCounts counts;
     while (mesh_.n_triangles() > limits.target_triangles && !heap_.empty()) {
       const std::uint32_t u = heap_.top(), v = target_[u];
+      if (stale_[u] || (kReach > 1 && metric_cost(u, v) > heap_.key(u))) {
+        choose(u);
+        continue;
+      }
       if (heap_.key(u) > limits.max_cost) break;
       const Refusal refusal = check(u, v, limits);
       if (refusal != Refusal::none) {
@@ -53,31 +77,59 @@ class CollapseLoop {
         choose_legal(u, limits);
         continue;
       }
-      counts.last_cost = std::max(counts.last_cost, heap_.key(u));
+      const float cost = heap_.key(u);
+      counts.last_cost = std::max(counts.last_cost, cost);
       ++counts.n_collapses;
-      make(u, v);
+      make(u, v, limits.lazy);
+      made(u, v, cost, trace_);
     }
+    counts.n_costs = std::exchange(n_costs_, 0);
     return counts;
   }
 
  private:
   static constexpr float kNever = std::numeric_limits<float>::infinity();
+  static constexpr bool kPlaces = requires(Metric m) { m.place(0u, 0u); };
+  static constexpr int reach() {
+    if constexpr (requires { Metric::kReach; }) return Metric::kReach;
+    return 1;
+  }
+  static constexpr int kReach = reach();
+
   static std::uint32_t size32(const CollapseMesh& mesh) {
     return static_cast<std::uint32_t>(mesh.n_vertices());
   }
 
+  // A full-edge collapse is the same from both ends: the edge is a candidate of its lower one only.
+  static bool is_candidate(std::uint32_t u, std::uint32_t v) { return !kPlaces || u < v; }
+
+  float metric_cost(std::uint32_t u, std::uint32_t v) {
+    ++n_costs_;
+    return metric_.cost(u, v);
+  }
+
+  static Refusal as_refusal(bool allowed) { return allowed ? Refusal::none : Refusal::metric; }
+  static Refusal as_refusal(Refusal refusal) { return refusal; }
+
   Refusal check(std::uint32_t u, std::uint32_t v, const CollapseLimits& limits) {
-    const Refusal refusal = mesh_.check(u, v, limits.min_cosine);
-    if (refusal != Refusal::none) return refusal;
-    return metric_.allows(mesh_, u, v) ? Refusal::none : Refusal::metric;
+    Refusal refusal;
+    if constexpr (kPlaces) {
+      place_ = metric_.place(u, v);
+      refusal = mesh_.check(u, v, place_, limits.min_cosine);
+    } else {
+      refusal = mesh_.check(u, v, limits.min_cosine);
+    }
+    return refusal != Refusal::none ? refusal : as_refusal(metric_.allows(mesh_, u, v));
   }
 
   // Puts u into the heap with its cheapest target, legal or not.
   void choose(std::uint32_t u) {
     float best = kNever;
+    stale_[u] = false;
     mesh_.ring(u, ring_);
     for (const std::uint32_t v : ring_) {
-      const float cost = metric_.cost(u, v);
+      if (!is_candidate(u, v)) continue;
+      const float cost = metric_cost(u, v);
       if (cost < best || (cost == best && cost < kNever && v < target_[u])) {
         best = cost;
         target_[u] = v;
@@ -90,8 +142,10 @@ class CollapseLoop {
   void choose_legal(std::uint32_t u, const CollapseLimits& limits) {
     mesh_.ring(u, ring_);
     sorted_.clear();
-    for (const std::uint32_t v : ring_)
-      if (const float cost = metric_.cost(u, v); cost < kNever) sorted_.emplace_back(cost, v);
+    for (const std::uint32_t v : ring_) {
+      if (!is_candidate(u, v)) continue;
+      if (const float cost = metric_cost(u, v); cost < kNever) sorted_.emplace_back(cost, v);
+    }
     std::sort(sorted_.begin(), sorted_.end());
     for (const auto& [cost, v] : sorted_) {
       if (check(u, v, limits) != Refusal::none) continue;
@@ -101,19 +155,31 @@ class CollapseLoop {
     heap_.erase(u);
   }
 
-  void make(std::uint32_t u, std::uint32_t v) {
-    mesh_.collapse(u, v);
-    metric_.collapsed(u, v);
+  void make(std::uint32_t u, std::uint32_t v, bool lazy) {
+    mesh_.collapse(u, v, &trace_);
+    if constexpr (requires { metric_.traced(u, v, trace_); }) metric_.traced(u, v, trace_);
+    if constexpr (kPlaces)
+      metric_.collapsed(u, v, place_);
+    else
+      metric_.collapsed(u, v);
     heap_.erase(u);
     choose(v);
     mesh_.ring(v, around_);
-    for (const std::uint32_t w : around_) update(w, u, v);
+    for (const std::uint32_t w : around_) {
+      if (lazy && heap_.contains(w))
+        stale_[w] = true;
+      else if (kReach > 1)
+        choose(w);
+      else
+        update(w, u, v);
+    }
   }
 
   // After u -> v beside w: only w's costs towards u and v have changed.
   void update(std::uint32_t w, std::uint32_t u, std::uint32_t v) {
     if (!heap_.contains(w) || target_[w] == u || target_[w] == v) return choose(w);
-    const float cost = metric_.cost(w, v);
+    if (!is_candidate(w, v)) return;
+    const float cost = metric_cost(w, v);
     if (cost < heap_.key(w) || (cost == heap_.key(w) && v < target_[w])) {
       target_[w] = v;
       heap_.set(w, cost);
@@ -124,8 +190,12 @@ class CollapseLoop {
   Metric& metric_;
   IndexedHeap heap_;
   std::vector<std::uint32_t> target_;  // vertex -> the vertex that it would collapse into
+  std::vector<bool> stale_;            // its key may be wrong
   std::vector<std::uint32_t> ring_, around_;
   std::vector<std::pair<float, std::uint32_t>> sorted_;
+  CollapseTrace trace_;
+  glm::vec3 place_{0};
+  std::size_t n_costs_ = 0;
 };
 
 }  // namespace viewcell

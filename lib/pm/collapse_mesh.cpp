@@ -6,7 +6,8 @@
 namespace viewcell {
 
 const char* refusal_name(Refusal refusal) {
-  constexpr const char* names[kRefusalKinds] = {"none", "link", "boundary", "flip", "metric"};
+  constexpr const char* names[kRefusalKinds] = {"none",   "link",  "boundary", "flip",
+                                                "sliver", "chart", "metric"};
   return names[static_cast<int>(refusal)];
 }
 
@@ -14,6 +15,7 @@ CollapseMesh::CollapseMesh(std::span<const glm::vec3> positions,
                            std::span<const Triangle> triangles)
     : positions_(positions),
       corners_(3 * triangles.size(), kEnd),
+      alive_(triangles.size(), false),
       next_(3 * triangles.size(), kEnd),
       head_(positions.size(), kEnd),
       mark_(positions.size(), 0) {
@@ -22,6 +24,7 @@ CollapseMesh::CollapseMesh(std::span<const glm::vec3> positions,
     if (triangle[0] == triangle[1] || triangle[1] == triangle[2] || triangle[2] == triangle[0])
       continue;
     ++n_triangles_;
+    alive_[t] = true;
     for (std::uint32_t k = 0; k < 3; ++k) {
       const auto c = static_cast<std::uint32_t>(3 * t + k);
       corners_[c] = triangle[k];
@@ -43,8 +46,16 @@ Refusal CollapseMesh::check(std::uint32_t u, std::uint32_t v, float min_cosine) 
   bool is_boundary_edge = false;
   if (!keeps_topology(u, v, is_boundary_edge)) return Refusal::link;
   if (!is_boundary_edge && is_on_boundary(u)) return Refusal::boundary;
-  if (!keeps_normals(u, v, min_cosine)) return Refusal::flip;
-  return Refusal::none;
+  return check_move(u, v, positions_[v], min_cosine);
+}
+
+Refusal CollapseMesh::check(std::uint32_t u, std::uint32_t v, const glm::vec3& place,
+                            float min_cosine) {
+  bool is_boundary_edge = false;
+  if (!keeps_topology(u, v, is_boundary_edge)) return Refusal::link;
+  if (!is_boundary_edge && is_on_boundary(u) && is_on_boundary(v)) return Refusal::boundary;
+  const Refusal refusal = check_move(u, v, place, min_cosine);
+  return refusal != Refusal::none ? refusal : check_move(v, u, place, min_cosine);
 }
 
 // The link condition [Dey, Edelsbrunner, Guha, Nekhayev 1999]: a vertex joined to both u and v must
@@ -81,13 +92,13 @@ bool CollapseMesh::has_triangle(std::uint32_t u, std::uint32_t a, std::uint32_t 
 }
 
 // Whether some edge of u has exactly one triangle.
-bool CollapseMesh::is_on_boundary(std::uint32_t u) {
-  // Each triangle (u, a, b) has the edges u-a and u-b; around an interior vertex every neighbour is
+bool CollapseMesh::is_on_boundary(std::uint32_t v) {
+  // Each triangle (v, a, b) has the edges v-a and v-b; around an interior vertex every neighbour is
   // met an even number of times.
   stamp_ += 4;
   const std::uint32_t odd = stamp_ + 1, even = stamp_ + 2;
   int n_odd = 0;
-  for_each_triangle(u, [&](std::uint32_t a, std::uint32_t b) {
+  for_each_triangle(v, [&](std::uint32_t a, std::uint32_t b) {
     for (const std::uint32_t w : {a, b}) {
       const bool was_odd = mark_[w] == odd;
       mark_[w] = was_odd ? even : odd;
@@ -97,22 +108,24 @@ bool CollapseMesh::is_on_boundary(std::uint32_t u) {
   return n_odd > 0;
 }
 
-bool CollapseMesh::keeps_normals(std::uint32_t u, std::uint32_t v, float min_cosine) const {
-  const glm::vec3 from = positions_[u], to = positions_[v];
-  bool keeps = true;
-  for_each_triangle(u, [&](std::uint32_t a, std::uint32_t b) {
-    if (a == v || b == v || !keeps) return;
+// Of the triangles of `from` without `other`, when it goes to `to`.
+Refusal CollapseMesh::check_move(std::uint32_t from, std::uint32_t other, const glm::vec3& to,
+                                 float min_cosine) const {
+  const glm::vec3 at = positions_[from];
+  Refusal refusal = Refusal::none;
+  for_each_triangle(from, [&](std::uint32_t a, std::uint32_t b) {
+    if (a == other || b == other || refusal != Refusal::none) return;
     const glm::vec3 pa = positions_[a], pb = positions_[b];
-    const glm::vec3 before = glm::cross(pa - from, pb - from);
+    const glm::vec3 before = glm::cross(pa - at, pb - at);
     const glm::vec3 after = glm::cross(pa - to, pb - to);
     const float limit = min_cosine * std::sqrt(glm::dot(before, before) * glm::dot(after, after));
-    if (glm::dot(before, after) < limit) keeps = false;
+    if (glm::dot(before, after) < limit) refusal = Refusal::flip;
     // no area, or next to none for its longest edge (a needle shows as a crack): height < 1e-3 edge
     const float longest = std::max(
         {glm::dot(pa - to, pa - to), glm::dot(pb - to, pb - to), glm::dot(pa - pb, pa - pb)});
-    if (!(glm::dot(after, after) > 1e-6f * longest * longest)) keeps = false;
+    if (!(glm::dot(after, after) > 1e-6f * longest * longest)) refusal = Refusal::sliver;
   });
-  return keeps;
+  return refusal;
 }
 
 void CollapseMesh::unlink(std::uint32_t v, std::uint32_t corner) {
@@ -121,19 +134,20 @@ void CollapseMesh::unlink(std::uint32_t v, std::uint32_t corner) {
   *link = next_[corner];
 }
 
-void CollapseMesh::collapse(std::uint32_t u, std::uint32_t v) {
+void CollapseMesh::collapse(std::uint32_t u, std::uint32_t v, CollapseTrace* trace) {
+  if (trace) trace->died.clear(), trace->moved.clear();
   std::uint32_t last = kEnd;  // the last corner of u that lives on
   for (std::uint32_t c = head_[u]; c != kEnd;) {
-    const std::uint32_t after = next_[c], t = 3 * (c / 3);
-    if (corners_[t] == v || corners_[t + 1] == v || corners_[t + 2] == v) {
-      for (std::uint32_t k = 0; k < 3; ++k) {
-        unlink(corners_[t + k], t + k);
-        corners_[t + k] = kEnd;
-      }
+    const std::uint32_t after = next_[c], t = c / 3;
+    if (corners_[3 * t] == v || corners_[3 * t + 1] == v || corners_[3 * t + 2] == v) {
+      for (std::uint32_t k = 0; k < 3; ++k) unlink(corners_[3 * t + k], 3 * t + k);
+      alive_[t] = false;
       --n_triangles_;
+      if (trace) trace->died.push_back(t);
     } else {
       corners_[c] = v;
       last = c;
+      if (trace) trace->moved.push_back(c);
     }
     c = after;
   }
@@ -147,8 +161,8 @@ void CollapseMesh::collapse(std::uint32_t u, std::uint32_t v) {
 std::vector<Triangle> CollapseMesh::triangles() const {
   std::vector<Triangle> out;
   out.reserve(n_triangles_);
-  for (std::size_t c = 0; c < corners_.size(); c += 3)
-    if (corners_[c] != kEnd) out.push_back({corners_[c], corners_[c + 1], corners_[c + 2]});
+  for (std::size_t t = 0; t < alive_.size(); ++t)
+    if (alive_[t]) out.push_back({corners_[3 * t], corners_[3 * t + 1], corners_[3 * t + 2]});
   return out;
 }
 

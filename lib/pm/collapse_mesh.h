@@ -11,23 +11,36 @@
 
 namespace viewcell {
 
-/// Why a collapse was refused.
-enum class Refusal { none, link, boundary, flip, metric };
-inline constexpr int kRefusalKinds = 5;
+/// Why a collapse was refused. link: the surface's topology would change; boundary: a boundary
+/// vertex would leave its boundary; flip: a normal would turn too far; sliver: a triangle would
+/// have next to no height; chart: a vertex would leave its texture chart's boundary; metric: the
+/// metric said no.
+enum class Refusal { none, link, boundary, flip, sliver, chart, metric };
+inline constexpr int kRefusalKinds = 7;
 const char* refusal_name(Refusal refusal);
 
-/// Triangles over fixed vertices; a corner c = 3 * triangle + k, and the corners of each vertex
+/// What a collapse did to the triangles, by their numbers in the input.
+struct CollapseTrace {
+  std::vector<std::uint32_t> died;   ///< triangles, the most recent of u's list first
+  std::vector<std::uint32_t> moved;  ///< corners (3 * triangle + k) that went from u to v
+};
+
+/// Triangles over vertices; a corner c = 3 * triangle + k, and the corners of each vertex
 /// form a linked list. Memory: 24 bytes a triangle, 4 a vertex, and the positions that it refers
 /// to.
 class CollapseMesh {
  public:
-  /// Keeps a reference to positions. Triangles with a repeated index are dropped at once.
+  /// Keeps a reference to positions. Triangles with a repeated index are dropped at once. Positions
+  /// may be changed by their owner between calls.
   CollapseMesh(std::span<const glm::vec3> positions, std::span<const Triangle> triangles);
 
   std::size_t n_vertices() const { return head_.size(); }
   std::size_t n_triangles() const { return n_triangles_; }
   const glm::vec3& position(std::uint32_t v) const { return positions_[v]; }
   bool has_triangles(std::uint32_t v) const { return head_[v] != kEnd; }
+  /// The vertex at a corner of a live triangle, or of one that died, when it did.
+  std::uint32_t vertex_at(std::uint32_t corner) const { return corners_[corner]; }
+  bool is_alive(std::uint32_t triangle) const { return alive_[triangle]; }
 
   /// Calls visit(a, b) for every triangle (v, a, b) of v, in that winding.
   template <typename Visit>
@@ -38,6 +51,12 @@ class CollapseMesh {
     }
   }
 
+  /// Calls visit(corner) for every corner of v.
+  template <typename Visit>
+  void for_each_corner(std::uint32_t v, Visit&& visit) const {
+    for (std::uint32_t c = head_[v]; c != kEnd; c = next_[c]) visit(c);
+  }
+
   /// The vertices joined to v by an edge, each once, in an order that depends on the history only.
   void ring(std::uint32_t v, std::vector<std::uint32_t>& out) const;
 
@@ -46,9 +65,15 @@ class CollapseMesh {
   /// acos(min_cosine) nor makes one of no area. A triangle on its own may vanish.
   /// Not thread-safe (scratch marks).
   Refusal check(std::uint32_t u, std::uint32_t v, float min_cosine);
+  /// The same for the full-edge collapse of u and v into `place`: both vertices move, and an edge
+  /// from boundary to boundary through the inside is refused.
+  Refusal check(std::uint32_t u, std::uint32_t v, const glm::vec3& place, float min_cosine);
 
-  /// Collapses u into v: triangles with both die, the others of u get v in its place.
-  void collapse(std::uint32_t u, std::uint32_t v);
+  /// Collapses u into v: triangles with both die, the others of u get v in its place. trace: set to
+  /// what was done.
+  void collapse(std::uint32_t u, std::uint32_t v, CollapseTrace* trace = nullptr);
+  /// Whether some edge of v has exactly one triangle. Not thread-safe.
+  bool is_on_boundary(std::uint32_t v);
 
   /// The live triangles, in the order of the input.
   std::vector<Triangle> triangles() const;
@@ -58,11 +83,12 @@ class CollapseMesh {
   void unlink(std::uint32_t v, std::uint32_t corner);
   bool keeps_topology(std::uint32_t u, std::uint32_t v, bool& is_boundary_edge);
   bool has_triangle(std::uint32_t u, std::uint32_t a, std::uint32_t b) const;
-  bool is_on_boundary(std::uint32_t u);
-  bool keeps_normals(std::uint32_t u, std::uint32_t v, float min_cosine) const;
+  Refusal check_move(std::uint32_t from, std::uint32_t other, const glm::vec3& to,
+                     float min_cosine) const;
 
   std::span<const glm::vec3> positions_;
-  std::vector<std::uint32_t> corners_;  // 3 a triangle; kEnd in a dead one
+  std::vector<std::uint32_t> corners_;  // 3 a triangle
+  std::vector<bool> alive_;             // by triangle
   std::vector<std::uint32_t> next_;     // corner -> next corner of the same vertex
   std::vector<std::uint32_t> head_;     // vertex -> its first corner
   std::vector<std::uint32_t> mark_;     // vertex -> scratch, compared with stamp_

@@ -6,10 +6,6 @@
 namespace viewcell {
 namespace {
 
-// Boundary edges count as this many times their squared length in area: enough to keep a boundary's
-// shape, not so much that it is never simplified [Garland 1999 3.4.1].
-constexpr double kBoundaryWeight = 10;
-
 struct EdgeUse {
   std::uint32_t a, b;  // a < b
   std::uint32_t triangle;
@@ -38,12 +34,17 @@ std::vector<EdgeUse> find_boundary_edges(std::span<const Triangle> triangles) {
 
 }  // namespace
 
-QemMetric::QemMetric(std::span<const glm::vec3> positions, std::span<const Triangle> triangles)
-    : positions_(positions), quadrics_(positions.size()) {
+glm::dvec3 box_centre(std::span<const glm::vec3> positions) {
   Box box;
   for (const glm::vec3& p : positions) box.add(p);
-  centre_ = positions.empty() ? glm::dvec3(0) : box.centre();
-  const auto at = [&](std::uint32_t v) { return glm::dvec3(positions[v]) - centre_; };
+  return positions.empty() ? glm::dvec3(0) : box.centre();
+}
+
+std::vector<Quadric> make_quadrics(std::span<const glm::vec3> positions,
+                                   std::span<const Triangle> triangles, const glm::dvec3& centre,
+                                   const QemOptions& options) {
+  std::vector<Quadric> quadrics(positions.size());
+  const auto at = [&](std::uint32_t v) { return glm::dvec3(positions[v]) - centre; };
   const auto area_vector = [&](const Triangle& t) {
     return 0.5 * glm::cross(at(t[1]) - at(t[0]), at(t[2]) - at(t[0]));
   };
@@ -51,17 +52,20 @@ QemMetric::QemMetric(std::span<const glm::vec3> positions, std::span<const Trian
     const glm::dvec3 normal = area_vector(t);
     const double area = glm::length(normal);
     if (!(area > 0)) continue;
-    for (const std::uint32_t v : t) quadrics_[v].add_plane(normal / area, at(v), area / 3);
+    const double weight = options.area_weighted ? area / 3 : 1;
+    for (const std::uint32_t v : t) quadrics[v].add_plane(normal / area, at(v), weight);
   }
   for (const EdgeUse& edge : find_boundary_edges(triangles)) {
     const glm::dvec3 along = at(edge.b) - at(edge.a);
     const glm::dvec3 across = glm::cross(along, area_vector(triangles[edge.triangle]));
     const double length = glm::length(across);
     if (!(length > 0)) continue;
-    const double weight = kBoundaryWeight * glm::dot(along, along) / 6;
+    const double weight =
+        options.boundary_weight * (options.area_weighted ? glm::dot(along, along) / 6 : 1);
     for (const std::uint32_t v : {edge.a, edge.b})
-      quadrics_[v].add_plane(across / length, at(v), weight);
+      quadrics[v].add_plane(across / length, at(v), weight);
   }
+  return quadrics;
 }
 
 }  // namespace viewcell

@@ -1,4 +1,4 @@
-// The quadric error metric for half-edge collapses, as a metric of CollapseLoop.
+// The quadric error metric, for half-edge and full-edge collapses, as metrics of CollapseLoop.
 #pragma once
 
 #include <algorithm>
@@ -11,19 +11,45 @@
 
 namespace viewcell {
 
-/// Follows: [Garland, Heckbert 1997], planes weighted by triangle area, boundary edges held by
-/// planes at right angles to their triangle. cost(u, v) is a distance in the mesh's units: the root
-/// of the area-weighted mean square of v's distances to all planes that u and v have gathered.
-/// Positions are moved to the box's centre first, against cancellation.
+struct QemOptions {
+  bool area_weighted = true;  ///< false: every plane counts alike [Chen06 2.2.3]
+  /// true: the cost is the weighted mean of squared distances, so that a large patch may not drift
+  /// more than a small one; false: their sum, as Garland and Heckbert have it.
+  bool mean = true;
+  /// Boundary edges count as this many times their squared length in area: enough to keep a
+  /// boundary's shape, not so much that it is never simplified [Garland 1999 3.4.1].
+  double boundary_weight = 10;
+};
+
+/// The quadrics of all vertices: sums over their triangles' planes, and over planes through
+/// boundary edges at right angles to their triangle. Positions are taken relative to `centre`,
+/// against cancellation.
+std::vector<Quadric> make_quadrics(std::span<const glm::vec3> positions,
+                                   std::span<const Triangle> triangles, const glm::dvec3& centre,
+                                   const QemOptions& options = {});
+glm::dvec3 box_centre(std::span<const glm::vec3> positions);
+
+/// The cost that belongs to a value and the weight behind it: a distance in the mesh's units, the
+/// root of the mean, or of the sum.
+inline float quadric_cost(double value, double weight, bool mean) {
+  if (!(weight > 0)) return 0;
+  return static_cast<float>(std::sqrt(std::max(value, 0.0) / (mean ? weight : 1)));
+}
+
+/// Half-edge collapses. Follows: [Garland, Heckbert 1997].
 class QemMetric {
  public:
-  QemMetric(std::span<const glm::vec3> positions, std::span<const Triangle> triangles);
+  QemMetric(std::span<const glm::vec3> positions, std::span<const Triangle> triangles,
+            const QemOptions& options = {})
+      : positions_(positions),
+        centre_(box_centre(positions)),
+        mean_(options.mean),
+        quadrics_(make_quadrics(positions, triangles, centre_, options)) {}
 
   float cost(std::uint32_t u, std::uint32_t v) const {
     const glm::dvec3 p = glm::dvec3(positions_[v]) - centre_;
-    const double weight = quadrics_[u].weight + quadrics_[v].weight;
-    const double value = quadrics_[u].value(p) + quadrics_[v].value(p);
-    return weight > 0 ? static_cast<float>(std::sqrt(std::max(value, 0.0) / weight)) : 0.0f;
+    return quadric_cost(quadrics_[u].value(p) + quadrics_[v].value(p),
+                        quadrics_[u].weight + quadrics_[v].weight, mean_);
   }
   bool allows(const CollapseMesh&, std::uint32_t, std::uint32_t) const { return true; }
   void collapsed(std::uint32_t u, std::uint32_t v) { quadrics_[v].add(quadrics_[u]); }
@@ -31,6 +57,46 @@ class QemMetric {
  private:
   std::span<const glm::vec3> positions_;
   glm::dvec3 centre_;
+  bool mean_;
+  std::vector<Quadric> quadrics_;
+};
+
+/// Full-edge collapses into the point where the quadrics' sum is least. Moves positions.
+class QemFullMetric {
+ public:
+  QemFullMetric(std::span<glm::vec3> positions, std::span<const Triangle> triangles,
+                const QemOptions& options = {})
+      : positions_(positions),
+        centre_(box_centre(positions)),
+        mean_(options.mean),
+        quadrics_(make_quadrics(positions, triangles, centre_, options)) {}
+
+  float cost(std::uint32_t u, std::uint32_t v) const {
+    const Quadric sum = sum_of(u, v);
+    return quadric_cost(sum.value(least(sum, u, v)), sum.weight, mean_);
+  }
+  glm::vec3 place(std::uint32_t u, std::uint32_t v) const {
+    return glm::vec3(centre_ + least(sum_of(u, v), u, v));
+  }
+  bool allows(const CollapseMesh&, std::uint32_t, std::uint32_t) const { return true; }
+  void collapsed(std::uint32_t u, std::uint32_t v, const glm::vec3& place) {
+    quadrics_[v].add(quadrics_[u]);
+    positions_[v] = place;
+  }
+
+ private:
+  Quadric sum_of(std::uint32_t u, std::uint32_t v) const {
+    Quadric sum = quadrics_[std::min(u, v)];
+    sum.add(quadrics_[std::max(u, v)]);
+    return sum;
+  }
+  glm::dvec3 least(const Quadric& sum, std::uint32_t u, std::uint32_t v) const {
+    return sum.minimiser(0.5 * (glm::dvec3(positions_[u]) + glm::dvec3(positions_[v])) - centre_);
+  }
+
+  std::span<glm::vec3> positions_;
+  glm::dvec3 centre_;
+  bool mean_;
   std::vector<Quadric> quadrics_;
 };
 

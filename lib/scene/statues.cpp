@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <string_view>
 
 #include "base/error.h"
 #include "pm/simplify.h"
@@ -37,7 +38,12 @@ const Recipe& recipe_of(const StatueKind& kind) {
       {make_camel_figure, 3, 1, 0.07, {}},
       {make_bust_figure, 5, 0, 0.04, {}},
   }};
-  return recipes[static_cast<std::size_t>(&kind - statue_kinds().data())];
+  const auto& kinds = statue_kinds();
+  const auto found = std::find_if(kinds.begin(), kinds.end(), [&](const StatueKind& k) {
+    return std::string_view(k.name) == kind.name;
+  });
+  VIEWCELL_CHECK(found != kinds.end(), kind.name);
+  return recipes[static_cast<std::size_t>(found - kinds.begin())];
 }
 
 // The figure as a mesh of about n triangles. The count goes as 1 / cell^2, so a coarse mesh tells

@@ -142,7 +142,7 @@ TEST(CollapseMesh, NoNeedleIsMade) {
   const std::vector<glm::vec3> positions{{0, 0, 0}, {2, 0, 0}, {1, 1, 0}, {0, 2, 0}, {-1, -1, 0}};
   const std::vector<Triangle> triangles{{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 1}};
   CollapseMesh mesh(positions, triangles);
-  EXPECT_EQ(mesh.check(0, 1, kAnyTurn), Refusal::flip);
+  EXPECT_EQ(mesh.check(0, 1, kAnyTurn), Refusal::sliver);
 }
 
 // The live mesh kept naively: u renamed to v, triangles with a repeated index dropped.
@@ -253,7 +253,8 @@ TEST(CollapseMesh, SurvivesNonManifoldInput) {
 TEST(Refusal, EveryKindHasAName) {
   std::set<std::string> names;
   for (int i = 0; i < kRefusalKinds; ++i) names.insert(refusal_name(static_cast<Refusal>(i)));
-  EXPECT_EQ(names, (std::set<std::string>{"none", "link", "boundary", "flip", "metric"}));
+  EXPECT_EQ(names, (std::set<std::string>{"none", "link", "boundary", "flip", "sliver", "chart",
+                                          "metric"}));
 }
 
 }  // namespace

@@ -1,0 +1,46 @@
+// Builds progressive meshes: a metric, a placement, and where to stop.
+#pragma once
+
+#include <limits>
+#include <string>
+
+#include "base/parallel.h"
+#include "pm/collapse_loop.h"
+#include "pm/lindstrom_turk.h"
+#include "pm/progressive_mesh.h"
+#include "pm/qem.h"
+
+namespace viewcell {
+
+enum class MetricKind { qem3, lt };
+enum class Placement { half, full };
+/// Throw UsageError for another name.
+MetricKind parse_metric(const std::string& name);
+Placement parse_placement(const std::string& name);
+const char* metric_name(MetricKind metric);
+const char* placement_name(Placement placement);
+
+struct BuildOptions {
+  MetricKind metric = MetricKind::qem3;
+  Placement placement = Placement::half;  ///< lt needs full
+  std::size_t target_faces = 0;           ///< stop at or below; 0: as far as it goes
+  float max_cost = std::numeric_limits<float>::infinity();  ///< of a collapse, the metric's unit
+  bool lazy = true;         ///< costs are looked at again when they come up, see CollapseLimits
+  float min_cosine = 0.2f;  ///< a normal may turn by up to acos of this
+  QemOptions qem;           ///< of qem3
+  LindstromTurkOptions lt;  ///< of lt
+};
+
+struct BuildResult {
+  ProgressiveRecord record;  ///< made_by is left empty
+  CollapseCounts counts;
+  std::size_t n_welded = 0;   ///< vertices at the position of an earlier one
+  std::size_t n_dropped = 0;  ///< faces with two corners at one position, left out
+};
+
+/// Throws InputError when the metric needs what the mesh has not, UsageError for a metric that has
+/// no such placement. Costs are in the mesh's units. Memory: some 200 bytes a face.
+BuildResult build_progressive_mesh(const TriMesh& mesh, const BuildOptions& options,
+                                   const Progress& progress = {});
+
+}  // namespace viewcell

@@ -1,0 +1,85 @@
+#include "pm/pm_file.h"
+
+#include <cmath>
+
+#include "base/json.h"
+#include "base/section_file.h"
+
+namespace viewcell {
+namespace {
+
+constexpr std::uint32_t kKind = 4;
+
+Json read_info(const SectionReader& reader, const std::filesystem::path& file) {
+  const auto bytes = reader.read<char>("INFO");
+  return parse_json(std::string(bytes.begin(), bytes.end()), file);
+}
+
+void check_finite(const SectionReader& reader, const char* tag, const std::vector<glm::vec3>& v) {
+  for (const glm::vec3& p : v)
+    if (!std::isfinite(p.x + p.y + p.z)) reader.fail(tag, "has a number that is not finite");
+}
+
+}  // namespace
+
+void write_pm(const std::filesystem::path& file, const ProgressiveRecord& r) {
+  SectionWriter writer(kKind);
+  const TriMesh& a = r.attributes;
+  const Json info{{"format", "viewcell-pm"},
+                  {"version", 1},
+                  {"material_names", a.material_names},
+                  {"full_edge", r.is_full_edge()},
+                  {"made_by", r.made_by.empty() ? Json() : Json::parse(r.made_by)}};
+  writer.add_bytes("INFO", info.dump());
+  writer.add("POSITION", a.positions);
+  writer.add("NORMALS", a.normals);
+  writer.add("COLORS", a.colors);
+  writer.add("VERTEXOF", r.vertex_of);
+  writer.add("WEDGES", r.extra_sources);
+  writer.add("TEXCOORD", r.texcoords);
+  writer.add("FACES", r.faces);
+  writer.add("MATERIAL", a.materials);
+  writer.add("SPLITS", r.splits);
+  writer.add("BORN", r.born);
+  writer.add("MOVED", r.moved);
+  writer.add("MOVEDBY", r.moved_by);
+  writer.add("PAIRS", r.pairs);
+  writer.add("OLDPLACE", r.parent_positions);
+  writer.add("OLDTEX", r.parent_texcoords);
+  writer.write(file);
+}
+
+ProgressiveRecord read_pm(const std::filesystem::path& file) {
+  const SectionReader reader(file, kKind);
+  const Json json = read_info(reader, file);
+  const JsonCursor info(json, file);
+  if (info.at("format").string() != "viewcell-pm") info.at("format").fail("is not viewcell-pm");
+  if (info.at("version").integer(0, 1 << 30) != 1) info.at("version").fail("is not 1");
+  ProgressiveRecord r;
+  TriMesh& a = r.attributes;
+  const JsonCursor names = info.at("material_names");
+  for (std::size_t i = 0; i < names.size(); ++i) a.material_names.push_back(names.at(i).string());
+  if (json.contains("made_by") && !json["made_by"].is_null()) r.made_by = json["made_by"].dump();
+  reader.read("POSITION", a.positions);
+  reader.read("NORMALS", a.normals);
+  reader.read("COLORS", a.colors);
+  reader.read("VERTEXOF", r.vertex_of);
+  reader.read("WEDGES", r.extra_sources);
+  reader.read("TEXCOORD", r.texcoords);
+  reader.read("FACES", r.faces);
+  reader.read("MATERIAL", a.materials);
+  reader.read("SPLITS", r.splits);
+  reader.read("BORN", r.born);
+  reader.read("MOVED", r.moved);
+  reader.read("MOVEDBY", r.moved_by);
+  reader.read("PAIRS", r.pairs);
+  reader.read("OLDPLACE", r.parent_positions);
+  reader.read("OLDTEX", r.parent_texcoords);
+  check_finite(reader, "POSITION", a.positions);
+  check_finite(reader, "OLDPLACE", r.parent_positions);
+  if (a.positions.empty() || r.faces.empty()) reader.fail("FACES", "holds no mesh");
+  if (const std::string wrong = check_record(r); !wrong.empty()) reader.fail("SPLITS", wrong);
+  return r;
+}
+
+}  // namespace viewcell

@@ -1,0 +1,185 @@
+#include "pm/progressive_mesh.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "base/error.h"
+
+namespace viewcell {
+
+ProgressiveMesh::ProgressiveMesh(ProgressiveRecord record)
+    : record_(std::move(record)), is_alive_(record_.faces.size(), true) {
+  for (const std::uint32_t face : record_.born) is_alive_[face] = false;
+  n_base_faces_ = n_faces_ = record_.faces.size() - record_.born.size();
+}
+
+float ProgressiveMesh::cost() const {
+  return level_ < n_splits() ? record_.splits[level_].cost : 0;
+}
+
+// The parent as before and as after the collapse change places with the record.
+void ProgressiveMesh::swap_stash(const VertexSplit& split, std::size_t first_pair) {
+  if (!record_.is_full_edge()) return;
+  std::swap(record_.attributes.positions[split.parent], record_.parent_positions[level_]);
+  if (record_.texcoords.empty()) return;
+  for (std::size_t i = first_pair; i < first_pair + split.n_pairs; ++i)
+    std::swap(record_.texcoords[record_.pairs[i].parent], record_.parent_texcoords[i]);
+}
+
+void ProgressiveMesh::refine() {
+  VIEWCELL_CHECK(level_ < n_splits(), level_);
+  const VertexSplit& split = record_.splits[level_];
+  for (std::size_t i = at_moved_; i < at_moved_ + split.n_moved; ++i) {
+    const std::uint32_t corner = record_.moved[i];
+    record_.faces[corner / 3][corner % 3] = record_.pairs[at_pair_ + record_.moved_by[i]].child;
+  }
+  for (std::size_t i = at_born_; i < at_born_ + split.n_born; ++i)
+    is_alive_[record_.born[i]] = true;
+  swap_stash(split, at_pair_);
+  at_moved_ += split.n_moved, at_born_ += split.n_born, at_pair_ += split.n_pairs;
+  n_faces_ += split.n_born;
+  ++level_;
+}
+
+void ProgressiveMesh::coarsen() {
+  VIEWCELL_CHECK(level_ > 0);
+  --level_;
+  const VertexSplit& split = record_.splits[level_];
+  at_moved_ -= split.n_moved, at_born_ -= split.n_born, at_pair_ -= split.n_pairs;
+  n_faces_ -= split.n_born;
+  for (std::size_t i = at_moved_; i < at_moved_ + split.n_moved; ++i) {
+    const std::uint32_t corner = record_.moved[i];
+    record_.faces[corner / 3][corner % 3] = record_.pairs[at_pair_ + record_.moved_by[i]].parent;
+  }
+  for (std::size_t i = at_born_; i < at_born_ + split.n_born; ++i)
+    is_alive_[record_.born[i]] = false;
+  swap_stash(split, at_pair_);
+}
+
+void ProgressiveMesh::set_faces(std::size_t n) {
+  while (n_faces_ > n && level_ > 0) coarsen();
+  while (level_ < n_splits() && n_faces_ + record_.splits[level_].n_born <= n) refine();
+}
+
+void ProgressiveMesh::set_level(std::size_t level) {
+  VIEWCELL_CHECK(level <= n_splits(), level, n_splits());
+  while (level_ > level) coarsen();
+  while (level_ < level) refine();
+}
+
+std::uint32_t ProgressiveMesh::source_of(std::uint32_t wedge) const {
+  const std::size_t n = record_.attributes.positions.size();
+  return wedge < n ? wedge : record_.extra_sources[wedge - n];
+}
+
+TriMesh ProgressiveMesh::extract(std::vector<std::uint32_t>* source_vertex) const {
+  const TriMesh& from = record_.attributes;
+  const bool is_input = level_ == n_splits();
+  std::vector<std::uint32_t> place(from.positions.size(), is_input ? 1 : 0);
+  for (std::size_t f = 0; f < record_.faces.size(); ++f)
+    if (is_alive_[f])
+      for (const std::uint32_t wedge : record_.faces[f]) place[source_of(wedge)] = 1;
+  TriMesh out;
+  std::vector<std::uint32_t> sources;
+  for (std::uint32_t v = 0; v < place.size(); ++v) {
+    if (place[v] == 0) continue;
+    place[v] = static_cast<std::uint32_t>(sources.size());
+    sources.push_back(v);
+    out.positions.push_back(from.positions[record_.is_full_edge() ? record_.vertex_of[v] : v]);
+    if (!from.normals.empty()) out.normals.push_back(from.normals[v]);
+    if (!from.colors.empty()) out.colors.push_back(from.colors[v]);
+  }
+  out.material_names = from.material_names;
+  for (std::size_t f = 0; f < record_.faces.size(); ++f) {
+    if (!is_alive_[f]) continue;
+    const Triangle& face = record_.faces[f];
+    out.triangles.push_back(
+        {place[source_of(face[0])], place[source_of(face[1])], place[source_of(face[2])]});
+    if (!record_.texcoords.empty())
+      for (const std::uint32_t wedge : face) out.texcoords.push_back(record_.texcoords[wedge]);
+    if (!from.materials.empty()) out.materials.push_back(from.materials[f]);
+  }
+  if (record_.is_full_edge() && !is_input && !out.normals.empty())
+    out.normals = make_vertex_normals(out);
+  if (source_vertex) *source_vertex = std::move(sources);
+  return out;
+}
+
+namespace {
+
+std::string check_counts(const ProgressiveRecord& r, std::size_t n_wedges) {
+  std::uint64_t n_born = 0, n_moved = 0, n_pairs = 0;
+  for (const VertexSplit& split : r.splits)
+    n_born += split.n_born, n_moved += split.n_moved, n_pairs += split.n_pairs;
+  const TriMesh& a = r.attributes;
+  const auto fits = [](std::size_t size, std::size_t n) { return size == 0 || size == n; };
+  if (n_born != r.born.size() || n_moved != r.moved.size() || n_pairs != r.pairs.size())
+    return "the splits' counts are not those of their lists";
+  if (r.moved_by.size() != r.moved.size() || r.vertex_of.size() != a.positions.size() ||
+      !fits(a.normals.size(), a.positions.size()) || !fits(a.colors.size(), a.positions.size()) ||
+      !fits(a.materials.size(), r.faces.size()) || !fits(r.texcoords.size(), n_wedges) ||
+      !fits(r.parent_positions.size(), r.splits.size()))
+    return "an attribute has not one value an element";
+  const bool stashes_texcoords = r.is_full_edge() && !r.texcoords.empty();
+  if (r.parent_texcoords.size() != (stashes_texcoords ? r.pairs.size() : 0))
+    return "the parents' texture coordinates are not one a pair";
+  return "";
+}
+
+std::string check_ranges(const ProgressiveRecord& r, std::size_t n_wedges) {
+  const std::size_t n = r.attributes.positions.size();
+  for (const std::uint32_t v : r.extra_sources)
+    if (v >= n) return "a wedge's vertex is out of range";
+  for (std::size_t v = 0; v < n; ++v)
+    if (r.vertex_of[v] >= n || r.vertex_of[r.vertex_of[v]] != r.vertex_of[v])
+      return "vertex " + std::to_string(v) + " is welded to none";
+  for (const Triangle& face : r.faces)
+    for (const std::uint32_t w : face)
+      if (w >= n_wedges) return "a face's wedge is out of range";
+  for (const std::int32_t m : r.attributes.materials)
+    if (m < 0 || static_cast<std::size_t>(m) >= r.attributes.material_names.size())
+      return "a face's material is out of range";
+  for (const auto& pair : r.pairs)
+    if (pair.child >= n_wedges || pair.parent >= n_wedges) return "a pair's wedge is out of range";
+  return "";
+}
+
+// Makes the splits: a face comes once, and a corner that moves is alive and has the pair's parent.
+std::string check_splits(const ProgressiveRecord& r) {
+  std::vector<Triangle> faces = r.faces;
+  std::vector<bool> is_alive(faces.size(), true);
+  for (const std::uint32_t face : r.born) {
+    if (face >= faces.size() || !is_alive[face]) return "a face comes twice, or is none";
+    is_alive[face] = false;
+  }
+  std::size_t born = 0, moved = 0, pair = 0;
+  for (std::size_t i = 0; i < r.splits.size(); ++i) {
+    const VertexSplit& split = r.splits[i];
+    const std::string where = "split " + std::to_string(i);
+    if (std::max(split.child, split.parent) >= r.attributes.positions.size())
+      return where + " names a vertex out of range";
+    for (std::uint32_t k = 0; k < split.n_moved; ++k, ++moved) {
+      const std::uint32_t corner = r.moved[moved];
+      if (corner / 3 >= faces.size() || !is_alive[corner / 3] || r.moved_by[moved] >= split.n_pairs)
+        return where + " moves a corner that is not there";
+      const auto& by = r.pairs[pair + r.moved_by[moved]];
+      std::uint32_t& wedge = faces[corner / 3][corner % 3];
+      if (wedge != by.parent) return where + " moves a corner that is not the parent's";
+      wedge = by.child;
+    }
+    for (std::uint32_t k = 0; k < split.n_born; ++k) is_alive[r.born[born++]] = true;
+    pair += split.n_pairs;
+  }
+  return "";
+}
+
+}  // namespace
+
+std::string check_record(const ProgressiveRecord& record) {
+  const std::size_t n_wedges = record.attributes.positions.size() + record.extra_sources.size();
+  for (const auto& check : {check_counts, check_ranges})
+    if (std::string wrong = check(record, n_wedges); !wrong.empty()) return wrong;
+  return check_splits(record);
+}
+
+}  // namespace viewcell

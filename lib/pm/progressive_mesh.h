@@ -1,0 +1,92 @@
+// Progressive meshes: a base mesh and the vertex splits that lead from it to the input
+// [Hoppe 1996].
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "mesh/mesh.h"
+
+namespace viewcell {
+
+/// One vertex split, which undoes the collapse child -> parent. Its lists lie one after another in
+/// the record's arrays.
+struct VertexSplit {
+  std::uint32_t child = 0, parent = 0;  ///< vertices
+  std::uint32_t n_born = 0;             ///< faces that come back
+  std::uint32_t n_moved = 0;            ///< corners that go from the parent's wedges to the child's
+  std::uint32_t n_pairs = 0;            ///< wedges of the child, each with the parent's that had it
+  float cost = 0;                       ///< the metric's, of the collapse
+};
+static_assert(sizeof(VertexSplit) == 24);
+
+/// A progressive mesh at its coarsest, as its file has it. Vertices, faces and their numbers are
+/// the input's. Wedge w < positions.size() is what is drawn at vertex w of the input; further
+/// wedges are further texture coordinates of one (extra_sources).
+struct ProgressiveRecord {
+  TriMesh
+      attributes;  ///< positions, normals, colours of the input; materials of faces; no triangles
+  std::vector<std::uint32_t> vertex_of;      ///< the vertex that an input vertex is welded to
+  std::vector<std::uint32_t> extra_sources;  ///< of wedges from positions.size() on: input vertex
+  std::vector<glm::vec2> texcoords;          ///< of wedges; empty without
+  std::vector<Triangle> faces;      ///< three wedges each: in the base, or when the face comes back
+  std::vector<VertexSplit> splits;  ///< coarse to fine
+  std::vector<std::uint32_t> born;  ///< faces
+  std::vector<std::uint32_t> moved;    ///< corners, 3 * face + k
+  std::vector<std::uint8_t> moved_by;  ///< of each moved corner: place of its pair in the split's
+  struct WedgePair {
+    std::uint32_t child, parent;
+  };
+  std::vector<WedgePair> pairs;
+  /// What a full-edge collapse overwrote: the parent's position, one a split, and the texture
+  /// coordinates of each pair's parent. Empty for half-edge collapses.
+  std::vector<glm::vec3> parent_positions;
+  std::vector<glm::vec2> parent_texcoords;
+  std::string made_by;  ///< JSON: tool, version, options, hash of the input
+
+  bool is_full_edge() const { return !parent_positions.empty(); }
+};
+
+/// A progressive mesh at some level; refining and coarsening take time in proportion to the faces
+/// that come and go.
+class ProgressiveMesh {
+ public:
+  /// At the base. The record must be sound (see check_record).
+  explicit ProgressiveMesh(ProgressiveRecord record);
+
+  std::size_t n_faces() const { return n_faces_; }
+  std::size_t n_base_faces() const { return n_base_faces_; }
+  std::size_t n_splits() const { return record_.splits.size(); }
+  /// Splits made so far: 0 at the base, n_splits() at the input.
+  std::size_t level() const { return level_; }
+  /// The cost of the collapse that made this level from the next finer one; 0 at the input.
+  float cost() const;
+
+  void refine();   ///< level() < n_splits()
+  void coarsen();  ///< level() > 0
+  /// The finest level of at most n faces, or the base.
+  void set_faces(std::size_t n);
+  void set_level(std::size_t level);
+
+  /// The mesh at this level: vertices and faces in the input's order, those of the input that are
+  /// used (at the input: all). source_vertex: their numbers in the input, if wanted. Normals are
+  /// the input's; after full-edge collapses, computed.
+  TriMesh extract(std::vector<std::uint32_t>* source_vertex = nullptr) const;
+
+ private:
+  std::uint32_t source_of(std::uint32_t wedge) const;
+  void swap_stash(const VertexSplit& split, std::size_t first_pair);
+
+  ProgressiveRecord record_;
+  std::vector<bool> is_alive_;  // by face
+  std::size_t n_faces_ = 0, n_base_faces_ = 0, level_ = 0;
+  std::size_t at_born_ = 0, at_moved_ = 0, at_pair_ = 0;  // of the next split
+};
+
+/// Whether every number of the record is in range and the splits can be made one after another.
+/// Returns what is wrong, or an empty string. Time and memory in proportion to the record.
+std::string check_record(const ProgressiveRecord& record);
+
+}  // namespace viewcell

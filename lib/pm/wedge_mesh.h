@@ -1,0 +1,59 @@
+// A mesh as collapses need it when it has texture coordinates or split vertices: vertices are
+// places, wedges are what is drawn at them [Hoppe 1998].
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "pm/collapse_mesh.h"
+
+namespace viewcell {
+
+/// Vertex ids are those of the file: where several vertices of the file stand at one position, the
+/// first is the vertex and the others are wedges of it only. Wedge w < n of the file's vertices has
+/// the attributes of vertex w; further wedges are second, third, ... texture coordinates of one.
+struct WedgeMesh {
+  std::vector<glm::vec3> positions;         ///< of the file's vertices
+  std::vector<std::uint32_t> wedge_vertex;  ///< wedge -> vertex
+  std::vector<std::uint32_t> wedge_source;  ///< wedge -> vertex of the file, for its attributes
+  std::vector<glm::vec2> texcoords;         ///< of wedges; empty without
+  std::vector<Triangle> faces;              ///< three wedges each, in the file's order
+  std::vector<std::uint32_t> face_source;   ///< face -> triangle of the file
+  std::size_t n_welded = 0;                 ///< vertices of the file that are not a vertex here
+  std::size_t n_dropped = 0;                ///< triangles with two corners at one position
+
+  std::size_t n_wedges() const { return wedge_vertex.size(); }
+  std::vector<Triangle> vertex_triangles() const;
+};
+
+WedgeMesh make_wedges(const TriMesh& mesh);
+
+/// The wedge at every corner while the mesh collapses.
+class WedgeTable {
+ public:
+  struct Pair {
+    std::uint32_t from, to;  ///< wedges of u and of v
+  };
+
+  explicit WedgeTable(const WedgeMesh& mesh);
+  std::uint32_t at(std::uint32_t corner) const { return corners_[corner]; }
+
+  /// For the collapse u -> v, which wedge of v takes over from each wedge of u: the pairs at the
+  /// triangles that would die. False when some wedge of u has none, or two: u would leave the
+  /// boundary of its texture chart. full: each wedge of v must be met by just one of u, too, for v
+  /// moves as well. Without texture coordinates there are no charts, and the first pair serves all.
+  bool match(const CollapseMesh& mesh, std::uint32_t u, std::uint32_t v, bool full);
+  const std::vector<Pair>& pairs() const { return pairs_; }
+  /// Gives the moved corners the wedges of the last match, which must have been this collapse.
+  void apply(const CollapseTrace& trace);
+
+ private:
+  bool add_pair(const Pair& pair, bool full);
+  void pair_rest(const CollapseMesh& mesh, std::uint32_t u);
+  bool has_charts_;
+  std::vector<std::uint32_t> corners_;
+  std::vector<Pair> pairs_;
+};
+
+}  // namespace viewcell
