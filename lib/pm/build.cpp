@@ -10,7 +10,7 @@
 namespace viewcell {
 namespace {
 
-constexpr std::array<const char*, 2> kMetricNames{"qem3", "lt"};
+constexpr std::array<const char*, 5> kMetricNames{"qem3", "qem5", "aps", "mapping", "lt"};
 constexpr std::array<const char*, 2> kPlacementNames{"half", "full"};
 
 template <typename Enum, std::size_t N>
@@ -63,6 +63,7 @@ class Recorder {
     moved_from_.clear();
     for (const std::uint32_t c : trace.moved) moved_from_.push_back(table_.at(c));
     table_.apply(trace);
+    matched_ = table_.pairs();
     if (is_full_) parent_positions_.push_back(positions_[v]);
   }
   // A position in the input's units, to the bit where it is the input's.
@@ -71,7 +72,7 @@ class Recorder {
   }
   // After it.
   void made(std::uint32_t u, std::uint32_t v, float cost, const CollapseTrace& trace) {
-    const auto& pairs = table_.pairs();
+    const auto& pairs = matched_;
     made_.push_back({{u, v, size32(trace.died), size32(trace.moved), size32(pairs), cost},
                      born_.size(),
                      moved_.size(),
@@ -88,7 +89,8 @@ class Recorder {
   }
 
   void finish(ProgressiveRecord& record);
-  std::uint32_t wedge_at(std::uint32_t corner) const { return table_.at(corner); }
+  WedgeTable& table() { return table_; }
+  const std::vector<glm::vec2>& texcoords() const { return texcoords_; }
 
  private:
   template <typename T>
@@ -96,7 +98,7 @@ class Recorder {
     return static_cast<std::uint32_t>(values.size());
   }
   std::uint8_t place_of(std::uint32_t wedge) const {
-    const auto& pairs = table_.pairs();
+    const auto& pairs = matched_;
     const auto found = std::find_if(pairs.begin(), pairs.end(),
                                     [&](const auto& pair) { return pair.from == wedge; });
     const auto place = found - pairs.begin();
@@ -110,7 +112,7 @@ class Recorder {
     const double length2 = glm::dot(edge, edge);
     const double along = glm::dot(glm::dvec3(positions_[v]) - from, edge);
     const double t = length2 > 0 ? std::clamp(along / length2, 0.0, 1.0) : 0.0;
-    for (const auto& [child, parent] : table_.pairs()) {
+    for (const auto& [child, parent] : matched_) {
       parent_texcoords_.push_back(texcoords_[parent]);
       texcoords_[parent] =
           glm::vec2(glm::mix(glm::dvec2(texcoords_[parent]), glm::dvec2(texcoords_[child]), t));
@@ -124,6 +126,7 @@ class Recorder {
   std::vector<glm::vec2> texcoords_;
   WedgeTable table_;
   bool is_full_;
+  std::vector<WedgeTable::Pair> matched_;  // of the last collapse
   std::vector<std::uint32_t> moved_from_;  // wedges of the last collapse's moved corners
   std::vector<Made> made_;
   std::vector<std::uint32_t> born_, moved_;
@@ -170,9 +173,10 @@ struct Recorded {
   { return metric.place(u, v); }
   Refusal allows(const CollapseMesh& mesh, std::uint32_t u, std::uint32_t v) {
     if (!recorder.match(mesh, u, v)) return Refusal::chart;
-    return metric.allows(mesh, u, v) ? Refusal::none : Refusal::metric;
+    return as_refusal(metric.allows(mesh, u, v));
   }
   void traced(std::uint32_t u, std::uint32_t v, const CollapseTrace& trace) {
+    if constexpr (requires { metric.traced(u, v, trace); }) metric.traced(u, v, trace);
     recorder.traced(u, v, trace);
   }
   template <typename... Place>
@@ -213,17 +217,41 @@ CollapseCounts collapse_all(CollapseMesh& mesh, Metric& metric, Recorder& record
   return total;
 }
 
-CollapseCounts run_metric(CollapseMesh& mesh, std::vector<glm::vec3>& positions,
+CollapseCounts run_metric(CollapseMesh& mesh, WedgeMesh& wedges,
                           const std::vector<Triangle>& triangles, Recorder& recorder, float scale,
                           const BuildOptions& options, const Progress& progress) {
+  std::vector<glm::vec3>& positions = wedges.positions;
   const auto run = [&](auto&& metric) {
     return collapse_all(mesh, metric, recorder, scale, options, progress);
   };
+  if (options.metric == MetricKind::aps || options.metric == MetricKind::mapping)
+    return run(MappingMetric(
+        mesh, recorder.table(), positions, recorder.texcoords(), triangles.size(),
+        {.matching = options.metric == MetricKind::aps ? Matching::texture : Matching::nearest,
+         .total = options.total_error}));
+  if (options.metric == MetricKind::qem5)
+    return run(TextureQemMetric(mesh, wedges, recorder.table(), positions,
+                                {options.qem, options.texture_weight}));
   if (options.metric == MetricKind::lt)
     return run(LindstromTurkMetric(mesh, positions, options.lt));
   if (options.placement == Placement::full)
     return run(QemFullMetric(positions, triangles, options.qem));
   return run(QemMetric(positions, triangles, options.qem));
+}
+
+void check_options(const TriMesh& mesh, const BuildOptions& options) {
+  const bool is_mapped = options.metric == MetricKind::aps ||
+                         options.metric == MetricKind::mapping ||
+                         options.metric == MetricKind::qem5;
+  if (options.metric == MetricKind::lt && options.placement == Placement::half)
+    throw UsageError("metric lt places vertices anew: it needs --placement full");
+  if (is_mapped && options.placement == Placement::full)
+    throw UsageError(std::string("metric ") + metric_name(options.metric) +
+                     " is for half-edge collapses: it needs --placement half");
+  if (is_mapped && mesh.texcoords.empty())
+    throw InputError("mesh", "",
+                     std::string("has no texture coordinates, which metric ") +
+                         metric_name(options.metric) + " needs; uvpatch makes some");
 }
 
 }  // namespace
@@ -243,8 +271,7 @@ const char* placement_name(Placement placement) {
 
 BuildResult build_progressive_mesh(const TriMesh& mesh, const BuildOptions& options,
                                    const Progress& progress) {
-  if (options.metric == MetricKind::lt && options.placement == Placement::half)
-    throw UsageError("metric lt places vertices anew: it needs --placement full");
+  check_options(mesh, options);
   WedgeMesh wedges = make_wedges(mesh);
   const float scale = unit_scale(wedges.positions);
   for (glm::vec3& p : wedges.positions) p *= scale;
@@ -253,7 +280,7 @@ BuildResult build_progressive_mesh(const TriMesh& mesh, const BuildOptions& opti
   const bool is_full = options.placement == Placement::full;
   Recorder recorder(wedges, wedges.positions, mesh.positions, scale, is_full);
   BuildResult result;
-  result.counts = run_metric(work, wedges.positions, triangles, recorder, scale, options, progress);
+  result.counts = run_metric(work, wedges, triangles, recorder, scale, options, progress);
 
   ProgressiveRecord& r = result.record;
   r.attributes = mesh;
@@ -274,7 +301,8 @@ BuildResult build_progressive_mesh(const TriMesh& mesh, const BuildOptions& opti
       wedges.wedge_source.begin() + static_cast<std::ptrdiff_t>(mesh.positions.size()),
       wedges.wedge_source.end());
   for (std::uint32_t c = 0; c < 3 * wedges.faces.size(); c += 3)
-    r.faces.push_back({recorder.wedge_at(c), recorder.wedge_at(c + 1), recorder.wedge_at(c + 2)});
+    r.faces.push_back(
+        {recorder.table().at(c), recorder.table().at(c + 1), recorder.table().at(c + 2)});
   recorder.finish(r);
   result.n_welded = wedges.n_welded;
   result.n_dropped = wedges.n_dropped;

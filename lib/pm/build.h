@@ -7,12 +7,14 @@
 #include "base/parallel.h"
 #include "pm/collapse_loop.h"
 #include "pm/lindstrom_turk.h"
+#include "pm/mapping_metric.h"
 #include "pm/progressive_mesh.h"
 #include "pm/qem.h"
+#include "pm/texture_qem.h"
 
 namespace viewcell {
 
-enum class MetricKind { qem3, lt };
+enum class MetricKind { qem3, qem5, aps, mapping, lt };
 enum class Placement { half, full };
 /// Throw UsageError for another name.
 MetricKind parse_metric(const std::string& name);
@@ -25,10 +27,12 @@ struct BuildOptions {
   Placement placement = Placement::half;  ///< lt needs full
   std::size_t target_faces = 0;           ///< stop at or below; 0: as far as it goes
   float max_cost = std::numeric_limits<float>::infinity();  ///< of a collapse, the metric's unit
-  bool lazy = true;         ///< costs are looked at again when they come up, see CollapseLimits
-  float min_cosine = 0.2f;  ///< a normal may turn by up to acos of this
-  QemOptions qem;           ///< of qem3
-  LindstromTurkOptions lt;  ///< of lt
+  bool lazy = true;           ///< costs are looked at again when they come up, see CollapseLimits
+  float min_cosine = 0.2f;    ///< a normal may turn by up to acos of this
+  bool total_error = true;    ///< aps, mapping: distance to the input, not to the step before
+  QemOptions qem;             ///< of qem3 and qem5
+  double texture_weight = 1;  ///< of qem5, see TextureQemOptions
+  LindstromTurkOptions lt;    ///< of lt
 };
 
 struct BuildResult {

@@ -30,6 +30,14 @@ struct CollapseCounts {
   float last_cost = 0;                                 ///< the highest cost of a collapse made
 };
 
+/// For metrics that say no more than yes or no.
+inline Refusal as_refusal(bool allowed) {
+  return allowed ? Refusal::none : Refusal::metric;
+}
+inline Refusal as_refusal(Refusal refusal) {
+  return refusal;
+}
+
 /// What a metric has:
 /// - float cost(u, v): of collapsing u into v, +infinity for never;
 /// - bool or Refusal allows(mesh, u, v): a last check before the collapse is made;
@@ -107,9 +115,6 @@ class CollapseLoop {
     ++n_costs_;
     return metric_.cost(u, v);
   }
-
-  static Refusal as_refusal(bool allowed) { return allowed ? Refusal::none : Refusal::metric; }
-  static Refusal as_refusal(Refusal refusal) { return refusal; }
 
   Refusal check(std::uint32_t u, std::uint32_t v, const CollapseLimits& limits) {
     Refusal refusal;

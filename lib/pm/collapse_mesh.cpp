@@ -7,7 +7,7 @@ namespace viewcell {
 
 const char* refusal_name(Refusal refusal) {
   constexpr const char* names[kRefusalKinds] = {"none",   "link",  "boundary", "flip",
-                                                "sliver", "chart", "metric"};
+                                                "sliver", "chart", "fold",     "metric"};
   return names[static_cast<int>(refusal)];
 }
 

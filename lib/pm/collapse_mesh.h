@@ -11,12 +11,16 @@
 
 namespace viewcell {
 
-/// Why a collapse was refused. link: the surface's topology would change; boundary: a boundary
-/// vertex would leave its boundary; flip: a normal would turn too far; sliver: a triangle would
-/// have next to no height; chart: a vertex would leave its texture chart's boundary; metric: the
-/// metric said no.
-enum class Refusal { none, link, boundary, flip, sliver, chart, metric };
-inline constexpr int kRefusalKinds = 7;
+/// Why a collapse was refused.
+/// - link: the surface's topology would change
+/// - boundary: a boundary vertex would leave its boundary
+/// - flip: a normal would turn too far
+/// - sliver: a triangle would have next to no height
+/// - chart: a vertex would leave its texture chart's boundary
+/// - fold: a triangle would turn over in the texture
+/// - metric: the metric said no
+enum class Refusal { none, link, boundary, flip, sliver, chart, fold, metric };
+inline constexpr int kRefusalKinds = 8;
 const char* refusal_name(Refusal refusal);
 
 /// What a collapse did to the triangles, by their numbers in the input.

@@ -32,6 +32,12 @@ std::vector<EdgeUse> find_boundary_edges(std::span<const Triangle> triangles) {
   return boundary;
 }
 
+// Half the cross product of two sides; at(v): the place of vertex v.
+template <typename At>
+glm::dvec3 area_vector(const At& at, const Triangle& t) {
+  return 0.5 * glm::cross(at(t[1]) - at(t[0]), at(t[2]) - at(t[0]));
+}
+
 }  // namespace
 
 glm::dvec3 box_centre(std::span<const glm::vec3> positions) {
@@ -40,24 +46,14 @@ glm::dvec3 box_centre(std::span<const glm::vec3> positions) {
   return positions.empty() ? glm::dvec3(0) : box.centre();
 }
 
-std::vector<Quadric> make_quadrics(std::span<const glm::vec3> positions,
-                                   std::span<const Triangle> triangles, const glm::dvec3& centre,
-                                   const QemOptions& options) {
+std::vector<Quadric> make_boundary_quadrics(std::span<const glm::vec3> positions,
+                                            std::span<const Triangle> triangles,
+                                            const glm::dvec3& centre, const QemOptions& options) {
   std::vector<Quadric> quadrics(positions.size());
   const auto at = [&](std::uint32_t v) { return glm::dvec3(positions[v]) - centre; };
-  const auto area_vector = [&](const Triangle& t) {
-    return 0.5 * glm::cross(at(t[1]) - at(t[0]), at(t[2]) - at(t[0]));
-  };
-  for (const Triangle& t : triangles) {
-    const glm::dvec3 normal = area_vector(t);
-    const double area = glm::length(normal);
-    if (!(area > 0)) continue;
-    const double weight = options.area_weighted ? area / 3 : 1;
-    for (const std::uint32_t v : t) quadrics[v].add_plane(normal / area, at(v), weight);
-  }
   for (const EdgeUse& edge : find_boundary_edges(triangles)) {
     const glm::dvec3 along = at(edge.b) - at(edge.a);
-    const glm::dvec3 across = glm::cross(along, area_vector(triangles[edge.triangle]));
+    const glm::dvec3 across = glm::cross(along, area_vector(at, triangles[edge.triangle]));
     const double length = glm::length(across);
     if (!(length > 0)) continue;
     const double weight =
@@ -65,6 +61,24 @@ std::vector<Quadric> make_quadrics(std::span<const glm::vec3> positions,
     for (const std::uint32_t v : {edge.a, edge.b})
       quadrics[v].add_plane(across / length, at(v), weight);
   }
+  return quadrics;
+}
+
+std::vector<Quadric> make_quadrics(std::span<const glm::vec3> positions,
+                                   std::span<const Triangle> triangles, const glm::dvec3& centre,
+                                   const QemOptions& options) {
+  std::vector<Quadric> quadrics(positions.size());
+  const auto at = [&](std::uint32_t v) { return glm::dvec3(positions[v]) - centre; };
+  for (const Triangle& t : triangles) {
+    const glm::dvec3 normal = area_vector(at, t);
+    const double area = glm::length(normal);
+    if (!(area > 0)) continue;
+    const double weight = options.area_weighted ? area / 3 : 1;
+    for (const std::uint32_t v : t) quadrics[v].add_plane(normal / area, at(v), weight);
+  }
+  const std::vector<Quadric> boundaries =
+      make_boundary_quadrics(positions, triangles, centre, options);
+  for (std::size_t v = 0; v < quadrics.size(); ++v) quadrics[v].add(boundaries[v]);
   return quadrics;
 }
 

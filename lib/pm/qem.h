@@ -27,6 +27,10 @@ struct QemOptions {
 std::vector<Quadric> make_quadrics(std::span<const glm::vec3> positions,
                                    std::span<const Triangle> triangles, const glm::dvec3& centre,
                                    const QemOptions& options = {});
+/// The part of them that boundary edges make.
+std::vector<Quadric> make_boundary_quadrics(std::span<const glm::vec3> positions,
+                                            std::span<const Triangle> triangles,
+                                            const glm::dvec3& centre, const QemOptions& options);
 glm::dvec3 box_centre(std::span<const glm::vec3> positions);
 
 /// The cost that belongs to a value and the weight behind it: a distance in the mesh's units, the

@@ -17,8 +17,8 @@ namespace {
 constexpr int kOverThreshold = 5;
 
 struct Arguments {
-  std::string model, metric = "qem3", placement, stop_at, pm;
-  bool unweighted = false, sum = false, exact = false;
+  std::string model, metric = "qem3", placement, error = "total", stop_at, pm;
+  bool unweighted = false, mean = false, exact = false;
   std::size_t n_faces = 0;
   BuildOptions build;
 };
@@ -26,17 +26,34 @@ struct Arguments {
 CLI::App& declare_build(CLI::App& app, Arguments& a) {
   CLI::App& build = *app.add_subcommand("build", "collapse a mesh and keep every step");
   build.add_option("MODEL", a.model, "mesh: OBJ, PLY, OFF, STL, glTF, 3DS")->required();
-  build.add_option("--metric", a.metric, "qem3: quadrics; lt: Lindstrom-Turk, memoryless")
+  build
+      .add_option("--metric", a.metric,
+                  "qem3: quadrics; qem5: of position and texture; aps: texture deviation; mapping: "
+                  "cell by cell [Chen06]; lt: "
+                  "Lindstrom-Turk, memoryless")
       ->capture_default_str();
   build.add_option("--placement", a.placement,
                    "half: a vertex goes to its neighbour; full: both to the best place (default: "
                    "half for qem3, full for lt)");
+  build
+      .add_option("--error", a.error,
+                  "aps, mapping: total, from the input, or incremental, from the step before")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"total", "incremental"}));
   build.add_option("--stop-at", a.stop_at,
                    "a whole number: faces; a number with a point: the metric's cost, in units of "
                    "the mesh (default: as far as it goes)");
-  build.add_flag("--unweighted", a.unweighted, "qem3: every plane counts alike, whatever its area");
-  build.add_flag("--sum", a.sum, "qem3: the sum of squared distances, not their mean");
-  build.add_option("--boundary-weight", a.build.qem.boundary_weight, "qem3: of boundary planes")
+  build.add_flag("--unweighted", a.unweighted,
+                 "qem3, qem5: every plane counts alike, whatever its area");
+  build.add_flag("--mean", a.mean, "qem3, qem5: the mean of squared distances, not their sum");
+  build
+      .add_option("--boundary-weight", a.build.qem.boundary_weight,
+                  "qem3, qem5: of boundary planes")
+      ->capture_default_str()
+      ->check(within(0, 1e6));
+  build
+      .add_option("--texture-weight", a.build.texture_weight,
+                  "qem5: of a length in the texture, once its area is scaled to the surface's")
       ->capture_default_str()
       ->check(within(0, 1e6));
   build.add_flag("--exact", a.exact, "look at every changed cost at once, not when it comes up");
@@ -80,7 +97,10 @@ Json format_options(const BuildOptions& b) {
            {"min_cosine", b.min_cosine}};
   if (b.target_faces > 0) out["target_faces"] = b.target_faces;
   if (std::isfinite(b.max_cost)) out["max_cost"] = b.max_cost;
-  if (b.metric == MetricKind::qem3) {
+  if (b.metric == MetricKind::aps || b.metric == MetricKind::mapping)
+    out["error"] = b.total_error ? "total" : "incremental";
+  if (b.metric == MetricKind::qem5) out["texture_weight"] = b.texture_weight;
+  if (b.metric == MetricKind::qem3 || b.metric == MetricKind::qem5) {
     out["area_weighted"] = b.qem.area_weighted;
     out["mean"] = b.qem.mean;
     out["boundary_weight"] = b.qem.boundary_weight;
@@ -111,8 +131,9 @@ int build(const Tool& tool, Arguments& a) {
   if (a.placement.empty()) a.placement = options.metric == MetricKind::lt ? "full" : "half";
   options.placement = parse_placement(a.placement);
   options.qem.area_weighted = !a.unweighted;
-  options.qem.mean = !a.sum;
+  options.qem.mean = a.mean;
   options.lazy = !a.exact;
+  options.total_error = a.error == "total";
   set_stop(a.stop_at, options);
   const TriMesh mesh = read_mesh(a.model);
   BuildResult result = build_progressive_mesh(mesh, options, tool.progress("percent"));
