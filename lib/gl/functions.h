@@ -50,6 +50,7 @@
   X(CompressedTextureSubImage2D, COMPRESSEDTEXTURESUBIMAGE2D) \
   X(CompressedTextureSubImage3D, COMPRESSEDTEXTURESUBIMAGE3D) \
   X(TextureParameteri, TEXTUREPARAMETERI)                     \
+  X(GenerateTextureMipmap, GENERATETEXTUREMIPMAP)             \
   X(TextureBuffer, TEXTUREBUFFER)                             \
   X(TextureBufferRange, TEXTUREBUFFERRANGE)                   \
   X(GetTextureImage, GETTEXTUREIMAGE)                         \

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <iterator>
 
 #include "base/error.h"
@@ -108,6 +109,25 @@ GlTexture GlTexture::make_2d_array(const Gl& gl, GLenum internal_format, int wid
   texture.set_filter(GL_LINEAR);
   check_gl(gl, "a texture of " + std::to_string(width_px) + " x " + std::to_string(height_px) +
                    " x " + std::to_string(n_layers));
+  return texture;
+}
+
+GlTexture GlTexture::make_mipmapped(const Gl& gl, GLenum internal_format, int width_px,
+                                    int height_px, const void* texels) {
+  const std::string size = std::to_string(width_px) + " x " + std::to_string(height_px);
+  GLint most_px = 0;
+  gl.GetIntegerv(GL_MAX_TEXTURE_SIZE, &most_px);
+  if (std::max(width_px, height_px) > most_px)
+    throw MachineError("GL: a texture of " + size + " is beyond the driver's " +
+                       std::to_string(most_px));
+  const int n_levels = std::bit_width(static_cast<unsigned>(std::max(width_px, height_px)));
+  GlTexture texture(gl, GL_TEXTURE_2D);
+  gl.TextureStorage2D(texture.id(), n_levels, internal_format, width_px, height_px);
+  texture.write(0, 0, 0, width_px, height_px, GL_RGBA, GL_UNSIGNED_BYTE, texels);
+  gl.GenerateTextureMipmap(texture.id());
+  gl.TextureParameteri(texture.id(), GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+  gl.TextureParameteri(texture.id(), GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  check_gl(gl, "a texture of " + size);
   return texture;
 }
 

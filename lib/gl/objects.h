@@ -66,6 +66,11 @@ class GlTexture : public GlObject {
   static GlTexture make_2d(const Gl& gl, GLenum internal_format, int width_px, int height_px);
   static GlTexture make_2d_array(const Gl& gl, GLenum internal_format, int width_px, int height_px,
                                  int n_layers);
+  /// A whole RGBA8 picture, rows from v = 0 up, repeated in both directions, filtered linearly
+  /// within and between mipmaps, which the driver averages (in linear light, with a format of sRGB).
+  /// Throws MachineError when a side is beyond the driver's limit.
+  static GlTexture make_mipmapped(const Gl& gl, GLenum internal_format, int width_px, int height_px,
+                                  const void* texels);
   /// Texels are the buffer's contents, which must outlive the texture.
   static GlTexture make_buffer_texture(const Gl& gl, GLenum internal_format,
                                        const GlBuffer& buffer);

@@ -1,0 +1,132 @@
+// meshshot: pictures of a mesh from all sides.
+#include <chrono>
+#include <optional>
+
+#include "base/error.h"
+#include "base/file.h"
+#include "common/provenance.h"
+#include "common/tool.h"
+#include "gl/context.h"
+#include "image/io.h"
+#include "mesh/io.h"
+#include "play/mesh_shots.h"
+
+namespace viewcell {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Options {
+  std::string mesh_file, texture_file, like_file, box;
+  std::string up = "auto", normals = "mesh", gl = "osmesa", sheet;
+  bool unlit = false, fixed_light = false, no_sheet = false;
+  MeshStyle style;
+  MeshShotOptions shots;
+};
+
+void declare(Tool& tool, Options& o) {
+  CLI::App& app = tool.app();
+  app.add_option("MESH", o.mesh_file, "OBJ, PLY (.gz), OFF, STL, GLB, glTF or 3DS")->required();
+  app.add_option("--texture", o.texture_file,
+                 "picture for the mesh's texture coordinates, repeated, filtered with mipmaps; "
+                 "textures that the mesh file names or holds are not read");
+  app.add_option("--views", o.shots.n_views, "number of views, spread evenly over the sphere")
+      ->capture_default_str()
+      ->check(CLI::Range(std::size_t{1}, kMostViews));
+  app.add_option("--size", o.style.size_px, "side of a picture, px")
+      ->capture_default_str()
+      ->check(CLI::Range(16, kMostSamplesPerSide));
+  app.add_option("--samples", o.style.samples, "samples per pixel along each side")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 8));
+  CLI::Option* like =
+      app.add_option("--like", o.like_file,
+                     "take the frame (box and up axis) from this mesh: pictures of a simplified "
+                     "mesh, to be compared, want --like ORIGINAL");
+  app.add_option("--box", o.box, "x0,y0,z0:x1,y1,z1, the frame's box in the mesh's coordinates")
+      ->excludes(like);
+  app.add_option("--up", o.up,
+                 "axis that points up: x | y | z | auto (y for OBJ, GLB and glTF, else z; with "
+                 "--like, by that file)")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"x", "y", "z", "auto"}));
+  app.add_flag("--unlit", o.unlit, "the surface's colour as it is");
+  app.add_flag("--fixed-light", o.fixed_light,
+               "the light stays with the mesh and does not turn with the view");
+  app.add_option("--normals", o.normals,
+                 "mesh (computed where it has none) | computed (by angle) | flat (of triangles)")
+      ->capture_default_str();
+  app.add_flag("--wireframe", o.style.wireframe, "draw edges over the surface");
+  CLI::Option* sheet = app.add_option(
+      "--sheet", o.sheet, "the contact sheet's file (default: DIR.sheet.png, beside the folder)");
+  app.add_flag("--no-sheet", o.no_sheet, "write no contact sheet")->excludes(sheet);
+  app.add_option("--gl", o.gl, "osmesa | egl")->capture_default_str();
+  tool.add_output("folder DIR of pictures to write, view-00.png and on");
+}
+
+MeshFrame choose_frame(const Options& o, const TriMesh& mesh) {
+  const std::string& source = o.like_file.empty() ? o.mesh_file : o.like_file;
+  const std::string up = o.up == "auto" ? up_axis_of(source) : o.up;
+  if (!o.box.empty()) return make_frame(parse_box(o.box), up, "--box");
+  return make_frame(box_of_triangles(o.like_file.empty() ? mesh : read_mesh(o.like_file)), up,
+                    source);
+}
+
+std::optional<ImageRgba8> read_texture(const Options& o, const TriMesh& mesh) {
+  if (o.texture_file.empty()) return {};
+  if (mesh.texcoords.empty())
+    throw InputError(o.mesh_file, "", "has no texture coordinates, which --texture needs");
+  return read_image_rgba8(o.texture_file);
+}
+
+// Throws before anything is read or written.
+void settle_options(const Tool& tool, Options& o) {
+  if (o.style.size_px > kMostSamplesPerSide / o.style.samples)
+    throw UsageError("--size times --samples is above " + std::to_string(kMostSamplesPerSide));
+  if (tool.common().output == "-") throw UsageError("-o names a folder");
+  o.style.lit = !o.unlit;
+  o.style.light_follows = !o.fixed_light;
+  o.style.normals = parse_normal_source(o.normals);
+  o.shots.folder = tool.common().output;
+  o.shots.n_threads = tool.common().n_threads;
+  if (!o.no_sheet) o.shots.sheet = o.sheet.empty() ? sheet_beside(o.shots.folder) : fs::path(o.sheet);
+  check_shot_folder(o.shots.folder, o.shots.n_views);
+}
+
+int run(const Tool& tool, Options& o) {
+  const auto start = std::chrono::steady_clock::now();
+  const auto seconds = [&] {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  };
+  settle_options(tool, o);
+  const TriMesh mesh = read_mesh(o.mesh_file);
+  const MeshFrame frame = choose_frame(o, mesh);
+  const std::optional<ImageRgba8> texture = read_texture(o, mesh);
+  o.shots.title = fs::path(o.mesh_file).filename().string() + ", " +
+                  std::to_string(mesh.triangles.size()) + " triangles";
+  const double read_s = seconds();
+  const GlContext context(parse_gl_engine(o.gl));
+  const MeshRenderer renderer(context.gl(), mesh, frame, texture ? &*texture : nullptr, o.style);
+  const double upload_s = seconds() - read_s;
+  const auto shots = write_mesh_shots(renderer, o.shots, tool.progress("views"));
+  const double reach = measure_reach(mesh, frame);
+  tool.report({{"views", format_shots(shots, frame)}});
+  (void)upload_s;
+  if (reach > kViewMargin) tool.say("cut");
+  return 0;
+}
+
+}  // namespace
+}  // namespace viewcell
+
+int main(int argc, char** argv) {
+  viewcell::Tool tool("meshshot",
+                      "Draw a mesh from K directions spread over the sphere, lit or not, with a "
+                      "texture or without, to compare simplifications as pictures.",
+                      "meshshot original.obj --texture skin.png --views 12 -o a/\n"
+                      "  meshshot simple.ply --texture skin.png --views 12 --like original.obj -o b/\n"
+                      "  psnr a/ b/");
+  viewcell::Options options;
+  viewcell::declare(tool, options);
+  return tool.main(argc, argv, [&] { return viewcell::run(tool, options); });
+}
