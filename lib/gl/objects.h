@@ -67,8 +67,8 @@ class GlTexture : public GlObject {
   static GlTexture make_2d_array(const Gl& gl, GLenum internal_format, int width_px, int height_px,
                                  int n_layers);
   /// A whole RGBA8 picture, rows from v = 0 up, repeated in both directions, filtered linearly
-  /// within and between mipmaps, which the driver averages (in linear light, with a format of sRGB).
-  /// Throws MachineError when a side is beyond the driver's limit.
+  /// within and between mipmaps, which the driver averages (in linear light, with a format of
+  /// sRGB). Throws MachineError when a side is beyond the driver's limit.
   static GlTexture make_mipmapped(const Gl& gl, GLenum internal_format, int width_px, int height_px,
                                   const void* texels);
   /// Texels are the buffer's contents, which must outlive the texture.

@@ -1,6 +1,6 @@
 #include "play/mesh_renderer.h"
 
-#include <algorithm>
+#include <array>
 #include <cstddef>
 #include <glm/gtc/type_ptr.hpp>
 
@@ -115,8 +115,7 @@ std::vector<Vertex> make_vertices(const TriMesh& mesh, const MeshFrame& frame, b
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const Triangle& triangle = mesh.triangles[t];
     for (std::size_t k = 0; k < 3; ++k) {
-      const glm::vec3 normal =
-          normals.empty() ? flat_normal(mesh, triangle) : normals[triangle[k]];
+      const glm::vec3 normal = normals.empty() ? flat_normal(mesh, triangle) : normals[triangle[k]];
       vertices.push_back({positions[triangle[k]], turn_up_axis(frame.up, normal),
                           surface_of(mesh, has_texture, style, t, k)});
     }
@@ -125,21 +124,27 @@ std::vector<Vertex> make_vertices(const TriMesh& mesh, const MeshFrame& frame, b
 }
 
 // An image's first row is the top, a texture's is v = 0.
-GlTexture upload(const Gl& gl, const ImageRgba8& image) {
+GlTexture upload(const Gl& gl, const ImageRgba8& image, bool flip_v) {
   std::vector<Rgba8> texels;
   texels.reserve(image.pixels.size());
-  for (int y = image.height_px; y-- > 0;)
-    texels.insert(texels.end(), &image.at(0, y), &image.at(0, y) + image.width_px);
+  for (int row = 0; row < image.height_px; ++row) {
+    const Rgba8* first = &image.at(0, flip_v ? row : image.height_px - 1 - row);
+    texels.insert(texels.end(), first, first + image.width_px);
+  }
   return GlTexture::make_mipmapped(gl, GL_SRGB8_ALPHA8, image.width_px, image.height_px,
                                    texels.data());
 }
 
 }  // namespace
 
+const char* name_of(NormalSource source) {
+  constexpr std::array<const char*, 3> kNames{"mesh", "computed", "flat"};
+  return kNames[static_cast<std::size_t>(source)];
+}
+
 NormalSource parse_normal_source(const std::string& name) {
-  if (name == "mesh") return NormalSource::mesh;
-  if (name == "computed") return NormalSource::computed;
-  if (name == "flat") return NormalSource::flat;
+  for (const auto source : {NormalSource::mesh, NormalSource::computed, NormalSource::flat})
+    if (name == name_of(source)) return source;
   throw UsageError("normals '" + name + "' are unknown: mesh, computed or flat");
 }
 
@@ -155,7 +160,7 @@ MeshRenderer::MeshRenderer(const Gl& gl, const TriMesh& mesh, const MeshFrame& f
   program_ = GlProgram(gl, "mesh", kVertexSource, fragment_source(style, texture != nullptr));
   gl.ProgramUniform1f(program_.id(), program_.uniform("half_width"),
                       0.5f * static_cast<float>(style.samples));
-  if (texture) texture_ = upload(gl, *texture);
+  if (texture) texture_ = upload(gl, *texture, style.flip_v);
   const std::vector<Vertex> vertices = make_vertices(mesh, frame, texture != nullptr, style);
   vertices_ = make_buffer(gl, vertices);
   n_vertices_ = static_cast<GLsizei>(vertices.size());

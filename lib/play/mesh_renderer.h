@@ -14,6 +14,7 @@ enum class NormalSource { mesh, computed, flat };
 
 /// "mesh", "computed" or "flat". Throws UsageError.
 NormalSource parse_normal_source(const std::string& name);
+const char* name_of(NormalSource source);
 
 struct MeshStyle {
   int size_px = 512;  ///< side of a picture
@@ -23,6 +24,7 @@ struct MeshStyle {
   /// lit side. False: it stays with the mesh, as in a scene.
   bool light_follows = true;
   NormalSource normals = NormalSource::mesh;
+  bool flip_v = false;         ///< v = 0 is the texture's top row, not the bottom one
   bool wireframe = false;      ///< edges over the surface, a pixel wide
   glm::vec3 base_color{0.5f};  ///< linear; where there is neither texture nor vertex colour
   Lighting lighting;           ///< its sky is the background
@@ -41,9 +43,9 @@ class MeshRenderer {
   MeshRenderer(const Gl& gl, const TriMesh& mesh, const MeshFrame& frame, const ImageRgba8* texture,
                const MeshStyle& style);
 
-  /// A view in frame space (make_views). Both sides of a triangle are drawn, the back lit as a front
-  /// that faces the same way: simplified meshes are often open. Alpha is 255 where any sample of a
-  /// pixel shows the mesh, else 0, with the sky's colour. The same bytes every time.
+  /// A view in frame space (make_views). Both sides of a triangle are drawn, the back lit as a
+  /// front that faces the same way: simplified meshes are often open. Alpha is 255 where any sample
+  /// of a pixel shows the mesh, else 0, with the sky's colour. The same bytes every time.
   ImageRgba8 draw(const Camera& view) const;
 
  private:

@@ -38,8 +38,7 @@ std::string describe(std::size_t i, const Camera& view) {
 ImageRgba8 make_sheet(const std::vector<MeshShot>& shots, std::vector<ImageRgba8> tiles,
                       const std::string& title) {
   const std::size_t n = shots.size();
-  const auto n_columns =
-      static_cast<std::size_t>(std::ceil(std::sqrt(static_cast<double>(n))));
+  const auto n_columns = static_cast<std::size_t>(std::ceil(std::sqrt(static_cast<double>(n))));
   std::vector<std::string> columns(n_columns);
   columns[0] = title;
   std::vector<SheetRow> rows;
@@ -124,6 +123,23 @@ Json format_shots(const std::vector<MeshShot>& shots, const MeshFrame& frame) {
                    {"covered_px", shot.n_covered}});
   }
   return out;
+}
+
+Json format_frame(const MeshFrame& frame) {
+  return {{"centre", format_vec3(frame.centre)},
+          {"radius", frame.radius},
+          {"up", frame.up},
+          {"fov_y_deg", kViewFovDeg}};
+}
+
+Json format_style(const MeshStyle& style) {
+  return {{"size_px", style.size_px},
+          {"samples", style.samples},
+          {"lit", style.lit},
+          {"light_follows", style.light_follows},
+          {"normals", name_of(style.normals)},
+          {"flip_v", style.flip_v},
+          {"wireframe", style.wireframe}};
 }
 
 }  // namespace viewcell

@@ -41,5 +41,9 @@ std::vector<MeshShot> write_mesh_shots(const MeshRenderer& renderer, const MeshS
 /// [{"name", "eye", "forward", "up", "elevation_deg", "azimuth_deg", "covered_px"}]; eye, forward
 /// and up in the mesh's own coordinates.
 Json format_shots(const std::vector<MeshShot>& shots, const MeshFrame& frame);
+/// {"centre", "radius", "up", "fov_y_deg"}.
+Json format_frame(const MeshFrame& frame);
+/// What changes the bytes of a picture, for provenance.
+Json format_style(const MeshStyle& style);
 
 }  // namespace viewcell

@@ -69,8 +69,8 @@ Box parse_box(const std::string& text) {
                             &box.lo.z, &box.hi.x, &box.hi.y, &box.hi.z, &rest);
   bool is_box = n == 6;
   for (int k = 0; k < 3; ++k)
-    is_box = is_box && std::isfinite(box.lo[k]) && std::isfinite(box.hi[k]) &&
-             box.lo[k] <= box.hi[k];
+    is_box =
+        is_box && std::isfinite(box.lo[k]) && std::isfinite(box.hi[k]) && box.lo[k] <= box.hi[k];
   if (!is_box) throw UsageError("box '" + text + "' is not x0,y0,z0:x1,y1,z1, low to high");
   return box;
 }
@@ -111,11 +111,10 @@ std::vector<Camera> make_views(std::size_t n) {
   VIEWCELL_CHECK(n >= 1 && n <= kMostViews, n);
   const double golden_rad = glm::pi<double>() * (3 - std::sqrt(5.0));
   const std::size_t first = find_first(n);
-  const double turn_rad = glm::radians(kFrontAzimuthDeg + kFirstAzimuthDeg) -
-                          golden_rad * static_cast<double>(first);
+  const double turn_rad =
+      glm::radians(kFrontAzimuthDeg + kFirstAzimuthDeg) - golden_rad * static_cast<double>(first);
   const auto view = [&](std::size_t i) {
-    return make_view(
-        direction_of(height_of(i, n), turn_rad + golden_rad * static_cast<double>(i)));
+    return make_view(direction_of(height_of(i, n), turn_rad + golden_rad * static_cast<double>(i)));
   };
   std::vector<Camera> views{view(first)};
   for (std::size_t i = 0; i < n; ++i)

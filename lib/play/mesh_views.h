@@ -15,7 +15,7 @@ namespace viewcell {
 /// only when both are drawn in one frame: a simplified mesh's own box is a little smaller.
 struct MeshFrame {
   glm::dvec3 centre{0};
-  double radius = 1;      ///< above 0
+  double radius = 1;     ///< above 0
   std::string up = "z";  ///< "x", "y" or "z", turned by turn_up_axis
 };
 
@@ -43,7 +43,7 @@ double measure_reach(const TriMesh& mesh, const MeshFrame& frame);
 
 inline constexpr double kViewFovDeg = 30;
 inline constexpr double kViewMargin = 1.02;  ///< radii of the sphere that a picture just holds
-inline constexpr std::size_t kMostViews = 1000;
+inline constexpr std::size_t kMostViews = 400;
 
 /// n cameras in frame space, in [1, kMostViews], each looking at the centre from the same distance
 /// and holding the sphere: they depend on n alone. Directions lie on a spherical Fibonacci lattice

@@ -1,9 +1,11 @@
 // meshshot: pictures of a mesh from all sides.
 #include <chrono>
 #include <optional>
+#include <utility>
 
 #include "base/error.h"
 #include "base/file.h"
+#include "base/table.h"
 #include "common/provenance.h"
 #include "common/tool.h"
 #include "gl/context.h"
@@ -30,6 +32,8 @@ void declare(Tool& tool, Options& o) {
   app.add_option("--texture", o.texture_file,
                  "picture for the mesh's texture coordinates, repeated, filtered with mipmaps; "
                  "textures that the mesh file names or holds are not read");
+  app.add_flag("--flip-v", o.style.flip_v,
+               "v = 0 is the texture's top row: for files whose coordinates run that way");
   app.add_option("--views", o.shots.n_views, "number of views, spread evenly over the sphere")
       ->capture_default_str()
       ->check(CLI::Range(std::size_t{1}, kMostViews));
@@ -79,40 +83,64 @@ std::optional<ImageRgba8> read_texture(const Options& o, const TriMesh& mesh) {
   return read_image_rgba8(o.texture_file);
 }
 
-// Throws before anything is read or written.
+// What was typed is checked, and what stands in the folder, before anything is read.
 void settle_options(const Tool& tool, Options& o) {
   if (o.style.size_px > kMostSamplesPerSide / o.style.samples)
     throw UsageError("--size times --samples is above " + std::to_string(kMostSamplesPerSide));
   if (tool.common().output == "-") throw UsageError("-o names a folder");
+  if (!o.box.empty()) parse_box(o.box);
+  parse_gl_engine(o.gl);
   o.style.lit = !o.unlit;
   o.style.light_follows = !o.fixed_light;
   o.style.normals = parse_normal_source(o.normals);
   o.shots.folder = tool.common().output;
   o.shots.n_threads = tool.common().n_threads;
-  if (!o.no_sheet) o.shots.sheet = o.sheet.empty() ? sheet_beside(o.shots.folder) : fs::path(o.sheet);
+  if (!o.no_sheet)
+    o.shots.sheet = o.sheet.empty() ? sheet_beside(o.shots.folder) : fs::path(o.sheet);
   check_shot_folder(o.shots.folder, o.shots.n_views);
 }
 
+Json format_provenance(const Tool& tool, const Options& o) {
+  const auto hash = [](const std::string& file) {
+    return file.empty() || file == "-" ? Json() : Json(hash_file(file));
+  };
+  return make_provenance(tool, format_style(o.style),
+                         {{"mesh", hash(o.mesh_file)},
+                          {"texture", hash(o.texture_file)},
+                          {"like", hash(o.like_file)}});
+}
+
 int run(const Tool& tool, Options& o) {
-  const auto start = std::chrono::steady_clock::now();
-  const auto seconds = [&] {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  double last_s = 0;
+  const auto lap_s = [&last_s, start = std::chrono::steady_clock::now()] {
+    const std::chrono::duration<double> now = std::chrono::steady_clock::now() - start;
+    return now.count() - std::exchange(last_s, now.count());
   };
   settle_options(tool, o);
   const TriMesh mesh = read_mesh(o.mesh_file);
   const MeshFrame frame = choose_frame(o, mesh);
   const std::optional<ImageRgba8> texture = read_texture(o, mesh);
-  o.shots.title = fs::path(o.mesh_file).filename().string() + ", " +
-                  std::to_string(mesh.triangles.size()) + " triangles";
-  const double read_s = seconds();
+  const double read_s = lap_s();
   const GlContext context(parse_gl_engine(o.gl));
   const MeshRenderer renderer(context.gl(), mesh, frame, texture ? &*texture : nullptr, o.style);
-  const double upload_s = seconds() - read_s;
-  const auto shots = write_mesh_shots(renderer, o.shots, tool.progress("views"));
+  const double upload_s = lap_s();
+  o.shots.title = fs::path(o.mesh_file).filename().string() + ", " +
+                  std::to_string(mesh.triangles.size()) + " triangles";
+  const std::vector<MeshShot> shots = write_mesh_shots(renderer, o.shots, tool.progress("views"));
+  const double views_s = lap_s();
+
   const double reach = measure_reach(mesh, frame);
-  tool.report({{"views", format_shots(shots, frame)}});
-  (void)upload_s;
-  if (reach > kViewMargin) tool.say("cut");
+  tool.report({{"made_by", format_provenance(tool, o)},
+               {"triangles", mesh.triangles.size()},
+               {"frame", format_frame(frame)},
+               {"reach", reach},
+               {"views", format_shots(shots, frame)},
+               {"renderer", context.renderer()},
+               {"timing", {{"read_s", read_s}, {"upload_s", upload_s}, {"views_s", views_s}}}});
+  if (reach > kViewMargin)
+    tool.say("warning: " + o.mesh_file + " reaches " + format_fixed(reach, 2, "-") +
+             " radii from the frame's centre: pictures may cut it off");
+  tool.say(std::to_string(shots.size()) + " views of " + o.shots.title);
   return 0;
 }
 
@@ -120,12 +148,15 @@ int run(const Tool& tool, Options& o) {
 }  // namespace viewcell
 
 int main(int argc, char** argv) {
-  viewcell::Tool tool("meshshot",
-                      "Draw a mesh from K directions spread over the sphere, lit or not, with a "
-                      "texture or without, to compare simplifications as pictures.",
-                      "meshshot original.obj --texture skin.png --views 12 -o a/\n"
-                      "  meshshot simple.ply --texture skin.png --views 12 --like original.obj -o b/\n"
-                      "  psnr a/ b/");
+  viewcell::Tool tool(
+      "meshshot",
+      "Draw a mesh from directions spread evenly over the sphere, with a texture or without. "
+      "Views depend on the frame (a sphere around a box) and on --views alone: give a simplified "
+      "mesh the original's frame by --like, and psnr compares the two folders picture by picture. "
+      "Alpha is 0 where the mesh is not. Both sides of triangles are drawn.",
+      "meshshot original.obj --texture skin.png --views 12 -o a\n"
+      "  meshshot simple.ply --texture skin.png --views 12 --like original.obj -o b\n"
+      "  psnr a b");
   viewcell::Options options;
   viewcell::declare(tool, options);
   return tool.main(argc, argv, [&] { return viewcell::run(tool, options); });
