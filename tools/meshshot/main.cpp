@@ -57,8 +57,10 @@ void declare(Tool& tool, Options& o) {
   app.add_flag("--unlit", o.unlit, "the surface's colour as it is");
   app.add_flag("--fixed-light", o.fixed_light,
                "the light stays with the mesh and does not turn with the view");
-  app.add_option("--normals", o.normals,
-                 "mesh (computed where it has none) | computed (by angle) | flat (of triangles)")
+  app.add_option(
+         "--normals", o.normals,
+         "mesh (computed where it has none) | computed (by angle; for both, where only one of two "
+         "meshes to compare has its own) | flat (of triangles)")
       ->capture_default_str();
   app.add_flag("--wireframe", o.style.wireframe, "draw edges over the surface");
   CLI::Option* sheet = app.add_option(
