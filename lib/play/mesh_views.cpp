@@ -1,6 +1,7 @@
 #include "play/mesh_views.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstdio>
 #include <glm/gtc/constants.hpp>
