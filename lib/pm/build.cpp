@@ -226,9 +226,10 @@ CollapseCounts run_metric(CollapseMesh& mesh, WedgeMesh& wedges,
   };
   if (options.metric == MetricKind::aps || options.metric == MetricKind::mapping)
     return run(MappingMetric(
-        mesh, recorder.table(), positions, recorder.texcoords(), triangles.size(),
+        mesh, recorder.table(), positions, recorder.texcoords(), triangles,
         {.matching = options.metric == MetricKind::aps ? Matching::texture : Matching::nearest,
-         .total = options.total_error}));
+         .total = options.total_error,
+         .measure = options.measure}));
   if (options.metric == MetricKind::qem5)
     return run(TextureQemMetric(mesh, wedges, recorder.table(), positions,
                                 {options.qem, options.texture_weight}));

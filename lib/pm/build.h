@@ -27,12 +27,13 @@ struct BuildOptions {
   Placement placement = Placement::half;  ///< lt needs full
   std::size_t target_faces = 0;           ///< stop at or below; 0: as far as it goes
   float max_cost = std::numeric_limits<float>::infinity();  ///< of a collapse, the metric's unit
-  bool lazy = true;           ///< costs are looked at again when they come up, see CollapseLimits
-  float min_cosine = 0.2f;    ///< a normal may turn by up to acos of this
-  bool total_error = true;    ///< aps, mapping: distance to the input, not to the step before
-  QemOptions qem;             ///< of qem3 and qem5
-  double texture_weight = 1;  ///< of qem5, see TextureQemOptions
-  LindstromTurkOptions lt;    ///< of lt
+  bool lazy = true;         ///< costs are looked at again when they come up, see CollapseLimits
+  float min_cosine = 0.2f;  ///< a normal may turn by up to acos of this
+  bool total_error = true;  ///< aps, mapping: distance to the input, not to the step before
+  Measure measure = Measure::max;  ///< of mapping
+  QemOptions qem;                  ///< of qem3 and qem5
+  double texture_weight = 1;       ///< of qem5, see TextureQemOptions
+  LindstromTurkOptions lt;         ///< of lt
 };
 
 struct BuildResult {

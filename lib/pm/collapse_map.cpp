@@ -104,7 +104,8 @@ bool CollapseMap::lay_sector(std::uint32_t u, std::uint32_t v) {
       if (va != u && vb != u && (va == rim_[1].vertex || vb == rim_[1].vertex))
         heir = c / 3, found = true;
     });
-    const std::array<Corner, 2> corners{{{u_at_, u_after_}, {rim_[0].at, rim_[0].at}}};
+    const std::array<Corner, 3> corners{
+        {{u_at_, u_after_}, {rim_[0].at, rim_[0].at}, {rim_[1].at, rim_[1].at}}};
     if (!found) return false;
     add_cell(rim_[0].face, heir, corners);
     cells_.push_back({heir, heir, {}});
@@ -216,28 +217,43 @@ void CollapseMap::add_side(bool is_left) {
     for (std::size_t j = j0; j <= j1; ++j) {
       std::array<Corner, 4> corners;
       std::size_t n_corners = 0;
-      for (const std::size_t edge : {i, i + 1})
-        for (const std::size_t ray : {j, j + 1}) {
-          const bool meets = edge == 0 || edge == n || (is_left ? ray >= edge : ray <= edge);
-          if (meets) corners[n_corners++] = corner(edge, ray, is_left);
-        }
-      // u ends the overlap: it is a corner of every cell of the middle face
+      const std::pair<std::size_t, std::size_t> around[4] = {
+          {i, j}, {i, j + 1}, {i + 1, j + 1}, {i + 1, j}};
+      for (const auto& [edge, ray] : around) {
+        const bool meets = edge == 0 || edge == n || (is_left ? ray >= edge : ray <= edge);
+        if (meets) corners[n_corners++] = corner(edge, ray, is_left);
+      }
       add_cell(rim_[i].face, rim_[j].face, {corners.data(), n_corners});
     }
   }
 }
 
+// corners: around the cell.
 void CollapseMap::add_cell(std::uint32_t old_face, std::uint32_t new_face,
                            std::span<const Corner> corners) {
+  std::array<glm::dvec3, 4> shift;
   glm::dvec3 lo(std::numeric_limits<double>::infinity()), hi(-lo);
-  for (const Corner& corner : corners) {
-    const glm::dvec3 shift = corner.before - corner.after;
-    lo = glm::min(lo, shift), hi = glm::max(hi, shift);
-    largest2_ = std::max(largest2_, glm::dot(shift, shift));
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    shift[i] = corners[i].before - corners[i].after;
+    lo = glm::min(lo, shift[i]), hi = glm::max(hi, shift[i]);
+    largest2_ = std::max(largest2_, glm::dot(shift[i], shift[i]));
   }
   const glm::vec3 l(lo), h(hi);
   const glm::vec3 out = kOutward * glm::max(glm::abs(l), glm::abs(h));
-  cells_.push_back({old_face, new_face, {l - out, h + out}});
+  MapCell cell{old_face, new_face, {l - out, h + out}};
+  for (std::size_t i = 1; i + 1 < corners.size(); ++i) {
+    const glm::dvec3 p = corners[0].before;
+    const double area =
+        0.5 * glm::length(glm::cross(corners[i].before - p, corners[i + 1].before - p));
+    const glm::dvec3 sum = shift[0] + shift[i] + shift[i + 1];
+    cell.area += area;
+    cell.mean += area / 3 * sum;
+    cell.square += area / 12 *
+                   (glm::dot(shift[0], shift[0]) + glm::dot(shift[i], shift[i]) +
+                    glm::dot(shift[i + 1], shift[i + 1]) + glm::dot(sum, sum));
+  }
+  if (cell.area > 0) cell.mean /= cell.area, cell.square /= cell.area;
+  cells_.push_back(cell);
 }
 
 void CollapseMap::check_orientation() {

@@ -33,6 +33,9 @@ enum class Matching {
 struct MapCell {
   std::uint32_t old_face, new_face;
   VectorBox shift;  ///< of old point minus new point; linear between the corners, so it holds all
+  double area = 0;  ///< of its part of the old face
+  glm::dvec3 mean{0};  ///< of the shift, over that area
+  double square = 0;   ///< mean squared length of the shift
 };
 
 /// When u collapses into v, the faces of u are mapped onto the faces that remain: the edges from u

@@ -8,16 +8,25 @@
 
 namespace viewcell {
 
+/// What cost() is made of: the largest distance of matched points, or the root of the integral of
+/// squared distances over the input's surface [Chen06 4.2.2 has a mean over texels instead, which
+/// weighs texture area, trap 27].
+enum class Measure { max, mean };
+
 struct MappingOptions {
   Matching matching = Matching::nearest;  ///< texture: APS [Cohen 1998]; nearest: [Chen06 4]
   /// true: distance to the input, by boxes of deviations that faces hand on [Cohen 1998 4.3];
   /// false: distance to the mesh before the collapse.
   bool total = true;
+  Measure measure = Measure::max;
 };
 
-/// Half-edge collapses. cost(u, v) is the largest distance of matched points over the faces that
-/// change: with `total` a bound on the distance of every point there from the input and back, for
-/// both surfaces are covered by the map.
+/// Half-edge collapses. With Measure::max cost(u, v) is the largest distance of matched points over
+/// the faces that change: with `total` a bound on the distance of every point there from the input
+/// and back, for both surfaces are covered by the map.
+/// With Measure::mean it is the root of what the collapse adds to the integral of squared distances
+/// (`total`: from the input), a length squared: faces hand on area, mean and mean square of their
+/// points' deviations, taken to be independent of the next shift within a face.
 /// Follows: [Chen06 4.2.1], [Cohen, Olano, Manocha 1998].
 class MappingMetric {
  public:
@@ -26,7 +35,7 @@ class MappingMetric {
   /// Keeps references.
   MappingMetric(const CollapseMesh& mesh, const WedgeTable& wedges,
                 std::span<const glm::vec3> positions, std::span<const glm::vec2> texcoords,
-                std::size_t n_faces, const MappingOptions& options = {});
+                std::span<const Triangle> triangles, const MappingOptions& options = {});
 
   float cost(std::uint32_t u, std::uint32_t v);
   /// Not when a face would turn over in the texture (Refusal::fold).
@@ -40,12 +49,30 @@ class MappingMetric {
     std::uint32_t face;
     VectorBox box;
   };
+  // Deviations of the points of the input that a face stands for, over their area.
+  struct Moments {
+    double area = 0, square = 0;  // square: integral of the squared length
+    glm::dvec3 sum{0};            // integral
+  };
+  struct NextMoments {
+    std::uint32_t face;
+    Moments moments;
+  };
   void add_up();
+  float add_up_moments();
+  NextMoments& moments_of(std::uint32_t face);
 
   MappingOptions options_;
   CollapseMap map_;
   std::vector<VectorBox> boxes_;  // by face: deviations from the input
   std::vector<Deviation> next_;   // of the faces of the last map
+  std::vector<Moments> moments_;  // by face, for Measure::mean
+  std::vector<NextMoments> next_moments_;
+  struct OldArea {
+    std::uint32_t face;
+    double area;
+  };
+  std::vector<OldArea> old_areas_;  // of the last map's cells, by old face
   float bound_ = 0;
 };
 

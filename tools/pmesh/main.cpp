@@ -17,7 +17,7 @@ namespace {
 constexpr int kOverThreshold = 5;
 
 struct Arguments {
-  std::string model, metric = "qem3", placement, error = "total", stop_at, pm;
+  std::string model, metric = "qem3", placement, error = "total", measure = "max", stop_at, pm;
   bool unweighted = false, mean = false, exact = false;
   std::size_t n_faces = 0;
   BuildOptions build;
@@ -40,6 +40,11 @@ CLI::App& declare_build(CLI::App& app, Arguments& a) {
                   "aps, mapping: total, from the input, or incremental, from the step before")
       ->capture_default_str()
       ->check(CLI::IsMember({"total", "incremental"}));
+  build
+      .add_option("--measure", a.measure,
+                  "mapping: max, of distances, or mean, of their squares over the surface")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"max", "mean"}));
   build.add_option("--stop-at", a.stop_at,
                    "a whole number: faces; a number with a point: the metric's cost, in units of "
                    "the mesh (default: as far as it goes)");
@@ -99,6 +104,7 @@ Json format_options(const BuildOptions& b) {
   if (std::isfinite(b.max_cost)) out["max_cost"] = b.max_cost;
   if (b.metric == MetricKind::aps || b.metric == MetricKind::mapping)
     out["error"] = b.total_error ? "total" : "incremental";
+  if (b.metric == MetricKind::mapping) out["measure"] = b.measure == Measure::mean ? "mean" : "max";
   if (b.metric == MetricKind::qem5) out["texture_weight"] = b.texture_weight;
   if (b.metric == MetricKind::qem3 || b.metric == MetricKind::qem5) {
     out["area_weighted"] = b.qem.area_weighted;
@@ -134,6 +140,7 @@ int build(const Tool& tool, Arguments& a) {
   options.qem.mean = a.mean;
   options.lazy = !a.exact;
   options.total_error = a.error == "total";
+  options.measure = a.measure == "mean" ? Measure::mean : Measure::max;
   set_stop(a.stop_at, options);
   const TriMesh mesh = read_mesh(a.model);
   BuildResult result = build_progressive_mesh(mesh, options, tool.progress("percent"));
