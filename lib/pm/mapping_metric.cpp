@@ -16,10 +16,13 @@ MappingMetric::MappingMetric(const CollapseMesh& mesh, const WedgeTable& wedges,
     return;
   }
   moments_.resize(triangles.size());
+  double area = 0;
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     const auto at = [&](std::size_t k) { return glm::dvec3(positions[triangles[t][k]]); };
     moments_[t].area = 0.5 * glm::length(glm::cross(at(1) - at(0), at(2) - at(0)));
+    area += moments_[t].area;
   }
+  if (area > 0) area_ = area;
 }
 
 // What the new faces of the last map would deviate: each cell's own shift and what its old face
@@ -74,7 +77,7 @@ float MappingMetric::add_up_moments() {
     to.square += square;
     after += square;
   }
-  return static_cast<float>(std::sqrt(std::max(after - before, 0.0)));
+  return static_cast<float>(std::sqrt(std::max(after - before, 0.0) / area_));
 }
 
 float MappingMetric::cost(std::uint32_t u, std::uint32_t v) {
@@ -83,7 +86,7 @@ float MappingMetric::cost(std::uint32_t u, std::uint32_t v) {
     if (options_.total) return add_up_moments();
     double sum = 0;
     for (const MapCell& cell : map_.cells()) sum += cell.area * cell.square;
-    return static_cast<float>(std::sqrt(sum));
+    return static_cast<float>(std::sqrt(sum / area_));
   }
   if (!options_.total) return static_cast<float>(map_.largest_shift());
   add_up();

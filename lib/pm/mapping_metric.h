@@ -24,9 +24,9 @@ struct MappingOptions {
 /// Half-edge collapses. With Measure::max cost(u, v) is the largest distance of matched points over
 /// the faces that change: with `total` a bound on the distance of every point there from the input
 /// and back, for both surfaces are covered by the map.
-/// With Measure::mean it is the root of what the collapse adds to the integral of squared distances
-/// (`total`: from the input), a length squared: faces hand on area, mean and mean square of their
-/// points' deviations, taken to be independent of the next shift within a face.
+/// With Measure::mean it is the root of what the collapse adds to the mean squared distance over
+/// the surface (`total`: from the input): faces hand on area, mean and mean square of their points'
+/// deviations, taken to be independent of the next shift within a face.
 /// Follows: [Chen06 4.2.1], [Cohen, Olano, Manocha 1998].
 class MappingMetric {
  public:
@@ -74,6 +74,7 @@ class MappingMetric {
   };
   std::vector<OldArea> old_areas_;  // of the last map's cells, by old face
   float bound_ = 0;
+  double area_ = 1;  // of the whole surface
 };
 
 }  // namespace viewcell

@@ -46,6 +46,17 @@ glm::dvec3 box_centre(std::span<const glm::vec3> positions) {
   return positions.empty() ? glm::dvec3(0) : box.centre();
 }
 
+QuadricScale make_quadric_scale(std::span<const glm::vec3> positions,
+                                std::span<const Triangle> triangles, const QemOptions& options) {
+  QuadricScale scale{options.mean};
+  if (options.mean || !options.area_weighted) return scale;
+  double area = 0;
+  const auto at = [&](std::uint32_t v) { return glm::dvec3(positions[v]); };
+  for (const Triangle& t : triangles) area += glm::length(area_vector(at, t));
+  if (area > 0) scale.whole = area;
+  return scale;
+}
+
 std::vector<Quadric> make_boundary_quadrics(std::span<const glm::vec3> positions,
                                             std::span<const Triangle> triangles,
                                             const glm::dvec3& centre, const QemOptions& options) {

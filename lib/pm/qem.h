@@ -14,7 +14,7 @@ namespace viewcell {
 struct QemOptions {
   bool area_weighted = true;  ///< false: every plane counts alike [Chen06 2.2.3]
   /// true: the cost is the weighted mean of squared distances, so that a large patch may not drift
-  /// more than a small one; false: their sum, as Garland and Heckbert have it.
+  /// more than a small one; false: their sum, as Garland and Heckbert have it, over the whole area.
   bool mean = true;
   /// Boundary edges count as this many times their squared length in area: enough to keep a
   /// boundary's shape, not so much that it is never simplified [Garland 1999 3.4.1].
@@ -33,12 +33,17 @@ std::vector<Quadric> make_boundary_quadrics(std::span<const glm::vec3> positions
                                             const glm::dvec3& centre, const QemOptions& options);
 glm::dvec3 box_centre(std::span<const glm::vec3> positions);
 
-/// The cost that belongs to a value and the weight behind it: a distance in the mesh's units, the
-/// root of the mean, or of the sum.
-inline float quadric_cost(double value, double weight, bool mean) {
-  if (!(weight > 0)) return 0;
-  return static_cast<float>(std::sqrt(std::max(value, 0.0) / (mean ? weight : 1)));
-}
+/// Turns a value and the weight behind it into a cost: a distance in the mesh's units.
+struct QuadricScale {
+  bool mean = true;
+  double whole = 1;  ///< of a sum: what it is divided by, the area of the whole surface
+  float cost(double value, double weight) const {
+    if (!(weight > 0)) return 0;
+    return static_cast<float>(std::sqrt(std::max(value, 0.0) / (mean ? weight : whole)));
+  }
+};
+QuadricScale make_quadric_scale(std::span<const glm::vec3> positions,
+                                std::span<const Triangle> triangles, const QemOptions& options);
 
 /// Half-edge collapses. Follows: [Garland, Heckbert 1997].
 class QemMetric {
@@ -47,13 +52,13 @@ class QemMetric {
             const QemOptions& options = {})
       : positions_(positions),
         centre_(box_centre(positions)),
-        mean_(options.mean),
+        scale_(make_quadric_scale(positions, triangles, options)),
         quadrics_(make_quadrics(positions, triangles, centre_, options)) {}
 
   float cost(std::uint32_t u, std::uint32_t v) const {
     const glm::dvec3 p = glm::dvec3(positions_[v]) - centre_;
-    return quadric_cost(quadrics_[u].value(p) + quadrics_[v].value(p),
-                        quadrics_[u].weight + quadrics_[v].weight, mean_);
+    return scale_.cost(quadrics_[u].value(p) + quadrics_[v].value(p),
+                       quadrics_[u].weight + quadrics_[v].weight);
   }
   bool allows(const CollapseMesh&, std::uint32_t, std::uint32_t) const { return true; }
   void collapsed(std::uint32_t u, std::uint32_t v) { quadrics_[v].add(quadrics_[u]); }
@@ -61,7 +66,7 @@ class QemMetric {
  private:
   std::span<const glm::vec3> positions_;
   glm::dvec3 centre_;
-  bool mean_;
+  QuadricScale scale_;
   std::vector<Quadric> quadrics_;
 };
 
@@ -72,12 +77,12 @@ class QemFullMetric {
                 const QemOptions& options = {})
       : positions_(positions),
         centre_(box_centre(positions)),
-        mean_(options.mean),
+        scale_(make_quadric_scale(positions, triangles, options)),
         quadrics_(make_quadrics(positions, triangles, centre_, options)) {}
 
   float cost(std::uint32_t u, std::uint32_t v) const {
     const Quadric sum = sum_of(u, v);
-    return quadric_cost(sum.value(least(sum, u, v)), sum.weight, mean_);
+    return scale_.cost(sum.value(least(sum, u, v)), sum.weight);
   }
   glm::vec3 place(std::uint32_t u, std::uint32_t v) const {
     return glm::vec3(centre_ + least(sum_of(u, v), u, v));
@@ -100,7 +105,7 @@ class QemFullMetric {
 
   std::span<glm::vec3> positions_;
   glm::dvec3 centre_;
-  bool mean_;
+  QuadricScale scale_;
   std::vector<Quadric> quadrics_;
 };
 

@@ -74,6 +74,7 @@ TextureQemMetric::TextureQemMetric(const CollapseMesh& mesh, const WedgeMesh& in
       boundaries_(positions.size()) {
   add_faces(input);
   const std::vector<Triangle> triangles = input.vertex_triangles();
+  cost_scale_ = make_quadric_scale(positions, triangles, options.qem);
   boundaries_ = make_boundary_quadrics(positions, triangles, centre_, options.qem);
 }
 
@@ -128,7 +129,7 @@ float TextureQemMetric::cost(std::uint32_t u, std::uint32_t v) {
     add_wedge(w, w);
     others_.push_back(w);
   });
-  return quadric_cost(value, weight, options_.qem.mean);
+  return cost_scale_.cost(value, weight);
 }
 
 // The table's pairs are those of the collapse that was just made.

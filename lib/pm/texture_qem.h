@@ -43,8 +43,6 @@ class TextureQemMetric {
   bool allows(const CollapseMesh&, std::uint32_t, std::uint32_t) const { return true; }
   void traced(std::uint32_t u, std::uint32_t v, const CollapseTrace& trace);
   void collapsed(std::uint32_t, std::uint32_t) {}
-  /// Of texture coordinates.
-  double texture_scale() const { return scale_; }
 
  private:
   Vec5 point(std::uint32_t vertex, std::uint32_t wedge) const;
@@ -56,7 +54,8 @@ class TextureQemMetric {
   const std::vector<glm::vec2>& texcoords_;
   TextureQemOptions options_;
   glm::dvec3 centre_;
-  double scale_ = 0;
+  double scale_ = 0;  // of texture coordinates
+  QuadricScale cost_scale_;
   std::vector<Quadric5> quadrics_;     // by wedge
   std::vector<Quadric> boundaries_;    // by vertex
   std::vector<std::uint32_t> others_;  // scratch: wedges of v that no wedge of u goes to
