@@ -1,0 +1,180 @@
+#include "mesh/closest_point.h"
+
+#include <embree3/rtcore.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "base/error.h"
+#include "base/parallel.h"
+
+namespace viewcell {
+namespace {
+
+// Squared height over longest edge below which a triangle's normal is mostly rounding.
+constexpr double kThinSquared = 1e-16;
+
+// By how much the hierarchy searches beyond the best distance so far, absolute and relative, in a
+// domain of [-1, 1]: the rounding of points and corners to float and of float distances is below.
+constexpr double kSlack = 1e-6;
+
+glm::dvec3 closest_point_on_segment(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3& b) {
+  const glm::dvec3 ab = b - a;
+  const double along = glm::dot(p - a, ab), squared = glm::dot(ab, ab);
+  if (!(along > 0)) return a;
+  return along >= squared ? b : a + (along / squared) * ab;
+}
+
+double distance_squared(const glm::dvec3& p, const glm::dvec3& q) {
+  return glm::dot(p - q, p - q);
+}
+
+}  // namespace
+
+//          \  w<0 |
+//      c    \     |        u, v, w: areas opposite a, b, c, times 2 |n|. Inside, all are at least
+//      0:
+//      |`.   \    |        the foot of the perpendicular is nearest. Outside, the nearest point is
+//      on |  `.          u<0  an edge that the foot lies beyond.
+//  v<0 a----b
+//       w<0
+glm::dvec3 closest_point_on_triangle(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3& b,
+                                     const glm::dvec3& c) {
+  const glm::dvec3 ab = b - a, ac = c - a, ap = p - a;
+  const glm::dvec3 n = glm::cross(ab, ac);
+  const double nn = glm::dot(n, n);
+  const double longest =
+      std::max({glm::dot(ab, ab), glm::dot(ac, ac), distance_squared(b, c)});  // squared
+  const bool is_thin = !(nn > kThinSquared * longest * longest);
+  const double w = glm::dot(glm::cross(ab, ap), n), v = glm::dot(glm::cross(ap, ac), n);
+  const double u = nn - v - w;
+  if (!is_thin && u >= 0 && v >= 0 && w >= 0) return p - (glm::dot(ap, n) / nn) * n;
+  glm::dvec3 best = a;
+  double best_squared = std::numeric_limits<double>::infinity();
+  const auto consider = [&](const glm::dvec3& from, const glm::dvec3& to) {
+    const glm::dvec3 q = closest_point_on_segment(p, from, to);
+    const double squared = distance_squared(p, q);
+    if (squared < best_squared) best = q, best_squared = squared;
+  };
+  if (is_thin || w < 0) consider(a, b);
+  if (is_thin || u < 0) consider(b, c);
+  if (is_thin || v < 0) consider(c, a);
+  return best;
+}
+
+struct ClosestPointFinder::Hierarchy {
+  const std::vector<Triangle>& triangles;
+  std::vector<glm::dvec3> positions;  // in the domain: within [-1, 1]
+  glm::dvec3 centre{0};
+  double scale = 1;  // a power of two, so that scaling rounds nothing
+  RTCDevice device = nullptr;
+  RTCScene scene = nullptr;
+
+  Hierarchy(const TriMesh& mesh, const Box& domain, int n_threads);
+  ~Hierarchy() {
+    if (scene) rtcReleaseScene(scene);
+    if (device) rtcReleaseDevice(device);
+  }
+  Hierarchy(const Hierarchy&) = delete;
+  Hierarchy& operator=(const Hierarchy&) = delete;
+
+  glm::dvec3 into_domain(const glm::dvec3& p) const { return scale * (p - centre); }
+  void build(int n_threads);
+};
+
+ClosestPointFinder::Hierarchy::Hierarchy(const TriMesh& mesh, const Box& domain, int n_threads)
+    : triangles(mesh.triangles), centre(domain.centre()) {
+  VIEWCELL_CHECK(!mesh.triangles.empty());
+  const glm::dvec3 size = domain.size();
+  const double extent = std::max({size.x, size.y, size.z});
+  if (extent > 0) scale = std::ldexp(1.0, -std::ilogb(extent));
+  positions.reserve(mesh.positions.size());
+  for (const glm::vec3& p : mesh.positions) positions.push_back(into_domain(glm::dvec3(p)));
+  build(n_threads);
+}
+
+void ClosestPointFinder::Hierarchy::build(int n_threads) {
+  const int threads = n_threads > 0 ? n_threads : hardware_threads();
+  device = rtcNewDevice(("threads=" + std::to_string(threads)).c_str());
+  if (!device) throw MachineError("Embree: cannot start");
+  scene = rtcNewScene(device);
+  RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+  auto* corners = static_cast<glm::vec3*>(rtcSetNewGeometryBuffer(
+      geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(glm::vec3), positions.size()));
+  auto* indices = static_cast<Triangle*>(rtcSetNewGeometryBuffer(
+      geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, sizeof(Triangle), triangles.size()));
+  if (!corners || !indices) {
+    rtcReleaseGeometry(geometry);
+    throw MachineError("Embree: out of memory");
+  }
+  // Vertices that no triangle uses may lie outside the domain, beyond what a float holds.
+  for (const Triangle& t : triangles)
+    for (const std::uint32_t v : t) corners[v] = glm::vec3(positions[v]);
+  std::copy(triangles.begin(), triangles.end(), indices);
+  rtcCommitGeometry(geometry);
+  rtcAttachGeometry(scene, geometry);
+  rtcReleaseGeometry(geometry);
+  rtcCommitScene(scene);
+  if (rtcGetDeviceError(device) != RTC_ERROR_NONE)
+    throw MachineError("Embree: cannot build the hierarchy");
+}
+
+namespace {
+
+// What one query has found so far, in the domain.
+struct Search {
+  const std::vector<Triangle>& triangles;
+  const std::vector<glm::dvec3>& positions;
+  glm::dvec3 p;
+  glm::dvec3 nearest{0};
+  double squared = std::numeric_limits<double>::infinity();
+  std::uint32_t triangle = 0;
+
+  // True when the triangle is nearer than all before.
+  bool consider(std::uint32_t id) {
+    const Triangle& t = triangles[id];
+    const glm::dvec3 q =
+        closest_point_on_triangle(p, positions[t[0]], positions[t[1]], positions[t[2]]);
+    const double d = distance_squared(p, q);
+    if (d > squared || (d == squared && id >= triangle)) return false;
+    squared = d, nearest = q, triangle = id;
+    return true;
+  }
+
+  float radius() const { return static_cast<float>(std::sqrt(squared) * (1 + kSlack) + kSlack); }
+};
+
+bool consider_triangle(RTCPointQueryFunctionArguments* args) {
+  Search& search = *static_cast<Search*>(args->userPtr);
+  if (!search.consider(args->primID)) return false;
+  args->query->radius = search.radius();
+  return true;
+}
+
+}  // namespace
+
+ClosestPointFinder::ClosestPointFinder(const TriMesh& mesh, const Box& domain, int n_threads)
+    : hierarchy_(std::make_unique<Hierarchy>(mesh, domain, n_threads)) {}
+
+ClosestPointFinder::~ClosestPointFinder() = default;
+
+ClosestPoint ClosestPointFinder::find(const glm::dvec3& p, std::uint32_t hint) const {
+  const Hierarchy& h = *hierarchy_;
+  Search search{h.triangles, h.positions, h.into_domain(p)};
+  search.consider(hint);
+  RTCPointQuery query;
+  query.x = static_cast<float>(search.p.x);
+  query.y = static_cast<float>(search.p.y);
+  query.z = static_cast<float>(search.p.z);
+  query.time = 0;
+  query.radius = search.radius();
+  RTCPointQueryContext context;
+  rtcInitPointQueryContext(&context);
+  rtcPointQuery(h.scene, &query, &context, consider_triangle, &search);
+  return {search.nearest / h.scale + h.centre, std::sqrt(search.squared) / h.scale,
+          search.triangle};
+}
+
+}  // namespace viewcell

@@ -1,0 +1,227 @@
+// Follows: [Metro98 3]: vertices, edges and faces of each surface are sampled, and the nearest
+// point of the other is found for each sample. Differs: mean, RMS and percentiles are over samples
+// on faces alone. Metro pools all kinds, so that the mean moves with the tessellation and with the
+// number of samples.
+#include "mesh/surface_distance.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "mesh/closest_point.h"
+#include "mesh/surface_samples.h"
+
+namespace viewcell {
+namespace {
+
+constexpr std::size_t kBlock = 4096;  // samples measured as one; sums are taken block by block
+
+enum Kind { kVertices, kEdges, kFaces, kKinds };
+
+// Sums over samples of one kind, with weights.
+struct Sums {
+  double weight = 0, distance = 0, squared = 0;
+
+  void add(double w, double d) { weight += w, distance += w * d, squared += w * d * d; }
+  void add(const Sums& other) {
+    weight += other.weight, distance += other.distance, squared += other.squared;
+  }
+  double mean() const { return weight > 0 ? distance / weight : 0; }
+  double mean_square() const { return weight > 0 ? squared / weight : 0; }
+};
+
+struct Block {
+  Kind kind = kVertices;
+  std::size_t first = 0, n = 0;
+  Sums sums;
+  WorstSample worst;
+};
+
+// One direction: the surface that is sampled, the one that is searched, and what was found.
+struct Direction {
+  const TriMesh& from;
+  SurfaceSamples samples;
+  ClosestPointFinder target;
+  std::vector<Block> blocks;
+  std::vector<double> vertex_distances, face_distances;  // in order of the samples
+
+  Direction(const TriMesh& from_mesh, const TriMesh& to, const Box& domain,
+            const DistanceOptions& options)
+      : from(from_mesh),
+        samples(plan_surface_samples(from, options.n_samples, options.seed)),
+        target(to, domain, options.n_threads),
+        vertex_distances(samples.vertices.size()),
+        face_distances(samples.n_face_samples) {
+    add_blocks(kVertices, samples.vertices.size());
+    add_blocks(kEdges, samples.n_edge_samples());
+    add_blocks(kFaces, samples.n_face_samples);
+  }
+
+  void add_blocks(Kind kind, std::size_t n) {
+    for (std::size_t first = 0; first < n; first += kBlock)
+      blocks.push_back({kind, first, std::min(kBlock, n - first), {}, {}});
+  }
+};
+
+void make_samples(const Direction& direction, const Block& block, std::span<glm::dvec3> points,
+                  std::span<double> weights) {
+  const auto& [from, samples, target, blocks, vertices, faces] = direction;
+  if (block.kind == kVertices) sample_vertices(samples, from, block.first, points);
+  if (block.kind == kEdges) sample_edges(samples, from, block.first, points, weights);
+  if (block.kind == kFaces) sample_faces(samples, from, block.first, points);
+}
+
+void measure_block(Direction& direction, Block& block) {
+  std::vector<glm::dvec3> points(block.n);
+  std::vector<double> weights(block.n, 1.0);
+  make_samples(direction, block, points, weights);
+  std::uint32_t hint = 0;
+  for (std::size_t i = 0; i < block.n; ++i) {
+    const ClosestPoint found = direction.target.find(points[i], hint);
+    hint = found.triangle;
+    const double d = found.distance;
+    block.sums.add(weights[i], d);
+    if (i == 0 || d > block.worst.distance) block.worst = {points[i], found.point, d};
+    if (block.kind == kVertices) direction.vertex_distances[block.first + i] = d;
+    if (block.kind == kFaces) direction.face_distances[block.first + i] = d;
+  }
+}
+
+void measure(Direction& forward, Direction& backward, int n_threads, const Progress& progress) {
+  const std::size_t n_forward = forward.blocks.size();
+  parallel_for(
+      n_forward + backward.blocks.size(), n_threads,
+      [&](std::size_t i) {
+        if (i < n_forward)
+          measure_block(forward, forward.blocks[i]);
+        else
+          measure_block(backward, backward.blocks[i - n_forward]);
+      },
+      progress);
+}
+
+// How many samples of each kind Metro 4 takes when it is asked for n: every vertex; of what is
+// left, one for each sqrt(area / left) of edge; on faces, what is left when the vertices are taken
+// off once more and the samples along edges too (that is what its code does).
+std::array<double, kKinds> metro_counts(const SurfaceSamples& samples, double n) {
+  const auto n_vertices = static_cast<double>(samples.vertices.size());
+  const double left = std::max(0.0, n - n_vertices);
+  const double n_edges = samples.length * std::sqrt(left / samples.area());
+  return {n_vertices, n_edges, std::max(0.0, left - n_vertices - n_edges)};
+}
+
+void set_pooled(OneSidedDistance& result, const std::array<Sums, kKinds>& sums,
+                const SurfaceSamples& samples) {
+  const std::array<double, kKinds> counts =
+      metro_counts(samples, static_cast<double>(samples.n_face_samples));
+  Sums all;
+  for (std::size_t kind = 0; kind < kKinds; ++kind)
+    all.add(
+        {counts[kind], counts[kind] * sums[kind].mean(), counts[kind] * sums[kind].mean_square()});
+  result.mean_pooled = all.mean();
+  result.rms_pooled = std::sqrt(all.mean_square());
+}
+
+// The smallest of the distances that a share of them does not exceed (nearest rank). Reorders.
+double percentile(std::vector<double>& distances, double share) {
+  const auto rank =
+      static_cast<std::size_t>(std::ceil(share * static_cast<double>(distances.size())));
+  const auto nth =
+      distances.begin() + static_cast<std::ptrdiff_t>(std::max<std::size_t>(rank, 1)) - 1;
+  std::nth_element(distances.begin(), nth, distances.end());
+  return *nth;
+}
+
+OneSidedDistance summarise(const Direction& direction) {
+  OneSidedDistance result;
+  std::array<Sums, kKinds> sums;
+  for (const Block& block : direction.blocks) {
+    sums[block.kind].add(block.sums);
+    if (&block == &direction.blocks.front() || block.worst.distance > result.worst.distance)
+      result.worst = block.worst;
+  }
+  result.max = result.worst.distance;
+  result.mean = sums[kFaces].mean();
+  result.rms = std::sqrt(sums[kFaces].mean_square());
+  set_pooled(result, sums, direction.samples);
+  std::vector<double> distances = direction.face_distances;
+  result.p50 = percentile(distances, 0.50);
+  result.p95 = percentile(distances, 0.95);
+  result.p99 = percentile(distances, 0.99);
+  result.n_vertices = direction.samples.vertices.size();
+  result.n_edge_samples = direction.samples.n_edge_samples();
+  result.n_face_samples = direction.samples.n_face_samples;
+  return result;
+}
+
+std::vector<std::uint64_t> count_bins(const std::vector<double>& distances, double most,
+                                      std::size_t n_bins) {
+  std::vector<std::uint64_t> bins(n_bins, 0);
+  for (const double d : distances) {
+    const double place = most > 0 ? d / most * static_cast<double>(n_bins) : 0;
+    ++bins[std::min(static_cast<std::size_t>(place), n_bins - 1)];
+  }
+  return bins;
+}
+
+std::vector<double> by_vertex(const Direction& direction) {
+  std::vector<double> out(direction.from.positions.size(), 0);
+  for (std::size_t i = 0; i < direction.samples.vertices.size(); ++i)
+    out[direction.samples.vertices[i]] = direction.vertex_distances[i];
+  return out;
+}
+
+Box surface_box(const TriMesh& mesh) {
+  Box box;
+  for (const Triangle& t : mesh.triangles)
+    for (const std::uint32_t v : t) box.add(glm::dvec3(mesh.positions[v]));
+  return box;
+}
+
+void change_units(OneSidedDistance& side, const glm::dvec3& origin, double factor) {
+  for (double* x : {&side.max, &side.mean, &side.rms, &side.p50, &side.p95, &side.p99,
+                    &side.mean_pooled, &side.rms_pooled, &side.worst.distance})
+    *x *= factor;
+  side.worst.point = factor * (side.worst.point - origin);
+  side.worst.nearest = factor * (side.worst.nearest - origin);
+}
+
+void change_to_unit_cube(SurfaceDistance& distance, const Box& box) {
+  const glm::dvec3 size = box.size();
+  const double factor = 1 / std::max({size.x, size.y, size.z});
+  change_units(distance.forward, box.lo, factor);
+  change_units(distance.backward, box.lo, factor);
+  for (double& d : distance.vertex_distance) d *= factor;
+  distance.bbox_diagonal *= factor;
+  distance.units_per_model_unit = factor;
+}
+
+}  // namespace
+
+SurfaceDistance::Symmetric SurfaceDistance::symmetric() const {
+  return {std::max(forward.max, backward.max), std::max(forward.mean, backward.mean),
+          std::max(forward.rms, backward.rms)};
+}
+
+SurfaceDistance measure_surface_distance(const TriMesh& a, const TriMesh& b,
+                                         const DistanceOptions& options, const Progress& progress) {
+  const Box box = surface_box(a), other = surface_box(b);
+  const Box both{glm::min(box.lo, other.lo), glm::max(box.hi, other.hi)};
+  Direction forward(a, b, both, options), backward(b, a, both, options);
+  measure(forward, backward, options.n_threads, progress);
+
+  SurfaceDistance result;
+  result.forward = summarise(forward);
+  result.backward = summarise(backward);
+  result.bbox_diagonal = glm::length(box.size());
+  result.vertex_distance = by_vertex(forward);
+  if (options.n_bins > 0) {
+    const double most = result.symmetric().max;
+    result.forward.histogram = count_bins(forward.face_distances, most, options.n_bins);
+    result.backward.histogram = count_bins(backward.face_distances, most, options.n_bins);
+  }
+  if (options.unit_cube) change_to_unit_cube(result, box);
+  return result;
+}
+
+}  // namespace viewcell
