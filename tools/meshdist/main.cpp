@@ -2,6 +2,7 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string>
 
 #include "base/error.h"
@@ -19,7 +20,8 @@ namespace {
 constexpr int kOverThreshold = 5;
 
 struct Arguments {
-  std::string a, b, color, range;
+  std::string a, b, color;
+  std::optional<std::string> range;
   double fail_above = std::numeric_limits<double>::infinity();
   DistanceOptions options;
 };
@@ -33,7 +35,9 @@ void declare(Tool& tool, Arguments& arguments) {
   app.add_option("--samples", options.n_samples, "samples on the faces of each mesh")
       ->capture_default_str()
       ->check(CLI::Range(1, 100'000'000));
-  app.add_option("--seed", options.seed, "shifts the samples on faces")->capture_default_str();
+  app.add_option("--seed", options.seed, "shifts the samples on faces")
+      ->capture_default_str()
+      ->check(CLI::NonNegativeNumber);
   app.add_flag("--unit-cube", options.unit_cube,
                "results as if A were scaled into the unit cube, and B by the same factor");
   app.add_option("--color", arguments.color,
@@ -94,10 +98,10 @@ void write_color(const Tool& tool, const Arguments& arguments, const TriMesh& a,
 
 int run(const Tool& tool, const Arguments& arguments) {
   std::array<double, 2> range{};
-  if (!arguments.range.empty()) range = parse_range(arguments.range);
+  if (arguments.range) range = parse_range(*arguments.range);
   const TriMesh a = read_surface(arguments.a);
   const SurfaceDistance distance = measure(tool, arguments, a);
-  if (arguments.range.empty()) range = default_color_range(distance);
+  if (!arguments.range) range = default_color_range(distance);
   if (!arguments.color.empty()) write_color(tool, arguments, a, distance, range);
 
   const CommonOptions& common = tool.common();

@@ -1,0 +1,142 @@
+#!/usr/bin/env bash
+# Types meshdist's commands and holds exit codes, streams, reports and the coloured mesh. First
+# argument: the folder of binaries.
+set -euo pipefail
+here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+bin=$1
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+log=$work/log
+mkdir "$log" "$work/run"
+cd "$work/run"
+. "$here/lib.sh"
+meshdist=$bin/meshdist
+
+ball 24 1 >a.off
+ball 40 1.5 >b.off
+square() {  # SIZE HEIGHT: two triangles, to stdout
+  printf 'OFF\n4 2 0\n0 0 %s\n%s 0 %s\n%s %s %s\n0 %s %s\n3 0 1 2\n3 0 2 3\n' \
+    "$2" "$1" "$2" "$1" "$1" "$2" "$1" "$2"
+}
+square 2 0 >low.off
+square 2 1 >high.off
+square 2e30 0 >huge_low.off
+square 2e30 1e30 >huge_high.off
+
+# The words and the numbers.
+expect 0 "$meshdist" --help
+grep -q "Example:" "$log/out" || fail "--help has no example"
+expect 0 "$meshdist" --version
+expect 0 "$meshdist" low.off high.off --samples 1000
+for word in forward backward symmetric "forward is largest at" "max/diagonal %"; do
+  grep -q "$word" "$log/out" || fail "no '$word' in the table"
+done
+grep -Eq '^symmetric +1 +1 +1 ' "$log/out" || fail "shifted squares are not 1 apart"
+grep -q "million a second" "$log/err" || fail "no summary on stderr"
+expect 0 "$meshdist" a.off a.off --samples 1000 -q
+[ ! -s "$log/err" ] || fail "words on stderr with -q"
+grep -Eq '^symmetric +[0-9.]+(e-1[5-9])? ' "$log/out" || fail "d(A, A): $(cat "$log/out")"
+
+# JSON, alone on stdout when asked for there.
+expect 0 "$meshdist" a.off b.off --samples 5000 --json -
+head -c 1 "$log/out" | grep -q "{" || fail "stdout is not only JSON"
+for key in forward backward symmetric max mean rms p50 p95 p99 samples bbox_diagonal worst; do
+  grep -q "\"$key\": " "$log/out" || fail "no $key in the report"
+done
+grep -q '"samples": 5000' "$log/out" || fail "samples"
+! grep -q histogram "$log/out" || fail "a histogram that nobody asked for"
+cp "$log/out" first
+for j in 1 2 7; do
+  expect 0 "$meshdist" a.off b.off --samples 5000 --json - -j $j
+  cmp -s "$log/out" first || fail "-j $j gives another report"
+done
+expect 0 "$meshdist" a.off b.off --samples 5000 --json - --seed 1
+! cmp -s "$log/out" first || fail "--seed changes nothing"
+expect 0 "$meshdist" a.off b.off --samples 5000 --json report.json -o table.txt
+[ ! -s "$log/out" ] && cmp -s report.json first && [ -s table.txt ] || fail "-o and --json"
+expect 0 "$meshdist" low.off high.off --samples 1000 --histogram 4 --json report.json
+grep -q '"histogram": \[0,0,0,1000\]' report.json || fail "histogram: $(cat report.json)"
+grep -Eq '^1 +100.0000 +100.0000$' "$log/out" || fail "no lines of the histogram"
+
+# Units: those of A, or of the unit cube; any size.
+expect 0 "$meshdist" low.off high.off --samples 1000 --unit-cube
+grep -Eq '^symmetric +0.5 +0.5 +0.5 ' "$log/out" || fail "--unit-cube does not halve"
+expect 0 "$meshdist" huge_low.off huge_high.off --samples 1000
+grep -Eq '^symmetric +1e\+30 +1e\+30 +1e\+30 ' "$log/out" || fail "1e30: $(cat "$log/out")"
+
+# The threshold.
+expect 0 "$meshdist" low.off high.off --samples 100 --fail-above 1
+expect 5 "$meshdist" low.off high.off --samples 100 --fail-above 0.999
+grep -q "^symmetric" "$log/out" || fail "no table beside exit code 5"
+
+# The coloured mesh: the same bytes each time, read again, and its colours.
+expect 0 "$meshdist" a.off b.off --samples 5000 --color color.ply
+for j in 1 2; do
+  expect 0 "$meshdist" a.off b.off --samples 5000 --color again.ply -j $j
+  cmp -s color.ply again.ply || fail "--color is not the same with -j $j"
+done
+for line in "property float distance" "property uchar red" "comment provenance" "element vertex 1106"; do
+  grep -aq "^$line" color.ply || fail "no '$line' in the coloured mesh"
+done
+expect 0 "$meshdist" color.ply a.off --samples 1000 --fail-above 1e-6
+color_of() {  # RANGE: the first vertex's red, green, blue and distance, of low.off to high.off
+  expect 0 "$meshdist" low.off high.off --samples 100 --color c.ply --range "$1"
+  local header
+  header=$(($(grep -abo end_header c.ply | cut -d: -f1) + 11))
+  tail -c +$((header + 13)) c.ply | head -c 7 | od -An -tu1 | xargs
+}
+[ "$(color_of 1:2)" = "0 255 0 0 0 128 63" ] || fail "green near zero: $(color_of 1:2)"
+[ "$(color_of 0.5:1.5)" = "255 0 0 0 0 128 63" ] || fail "red in between"
+[ "$(color_of 0:1)" = "0 0 255 0 0 128 63" ] || fail "blue far"
+[ "$(color_of 0:0.5)" = "0 0 255 0 0 128 63" ] || fail "blue beyond the range"
+[ "$(color_of 0:4)" = "255 255 0 0 0 128 63" ] || fail "yellow"
+expect 0 "$meshdist" low.off low.off --samples 100 --color c.ply  # an empty range
+rm -f c.ply again.ply color.ply first report.json table.txt
+
+# Misuse.
+fault 2 "B is required" "$meshdist" a.off
+for n in 0 -5 1.5 nan many 1e99 99999999999; do
+  fault 2 "--samples" "$meshdist" a.off b.off --samples=$n --color x.ply
+done
+for range in 1 1:1 2:1 nan:1 0:inf :1 0: a:b 0:1:2 ""; do
+  fault 2 "--range" "$meshdist" a.off b.off --range "$range" --color x.ply
+done
+for limit in nan -1 x; do fault 2 "--fail-above" "$meshdist" a.off b.off --fail-above=$limit; done
+for n in 0 -1 x 1e9; do fault 2 "--histogram" "$meshdist" a.off b.off --histogram=$n; done
+fault 2 "--seed" "$meshdist" a.off b.off --seed=-1
+fault 2 "--colour" "$meshdist" a.off b.off --colour x.ply
+fault 2 "--threads" "$meshdist" a.off b.off -j -1
+
+# Bad input, on either side; nothing is written.
+bad() {  # FILE TEXT
+  fault 1 "$1: $2" "$meshdist" "$1" a.off --color x.ply --json x.json
+  fault 1 "$1: $2" "$meshdist" a.off "$1" --color x.ply --json x.json
+}
+triangle='0 0 0\n1 0 0\n0 1 0\n'
+: >empty.ply
+noise 3000 >noise.ply
+head -c 3000 a.off >cut.off
+printf "OFF\n3 0 0\n$triangle" >faceless.off
+printf "OFF\n3 1 0\nnan 0 0\n1 0 0\n0 1 0\n3 0 1 2\n" >nan.off
+printf "OFF\n3 1 0\n1e39 0 0\n1 0 0\n0 1 0\n3 0 1 2\n" >infinite.off
+printf "OFF\n3 1 0\n${triangle}3 0 1 3\n" >index.off
+printf "OFF\n3 2 0\n0 0 0\n1 0 0\n2 0 0\n3 0 1 2\n3 1 1 1\n" >line.off
+mkdir folder.ply
+bad missing.ply "cannot open"
+bad folder.ply ""
+bad line.off "has no area"
+bad faceless.off "has no faces"
+for file in empty.ply noise.ply cut.off nan.off infinite.off index.off; do bad $file ""; done
+cp a.off a.xyz
+bad a.xyz "is of no known mesh format"
+bad - "is of no known mesh format"  # meshes are read by name: the ending tells the format
+
+# The machine's fault, and nothing left behind.
+fault 3 "no/x.ply" "$meshdist" a.off b.off --samples 100 --color no/x.ply
+if [ -e /dev/full ]; then
+  got=0
+  "$meshdist" low.off high.off --samples 100 >/dev/full 2>"$log/err" || got=$?
+  [ $got -eq 3 ] && grep -q "No space left" "$log/err" || fail "a full disk: $got"
+fi
+[ -z "$(find . -name '.tmp-*')" ] || fail "temporaries are left"
+echo "meshdist.sh: all well ($n_faults faults)"
