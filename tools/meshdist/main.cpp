@@ -1,6 +1,7 @@
 // meshdist: how far two surfaces are from each other.
 #include <chrono>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <optional>
 #include <string>
@@ -53,15 +54,13 @@ void declare(Tool& tool, Arguments& arguments) {
   tool.add_output("write the table to this file (default -: standard output)", false);
 }
 
-// "LO:HI" as two finite numbers, LO below HI.
 std::array<double, 2> parse_range(const std::string& text) {
-  const std::size_t colon = text.find(':');
-  std::array<double, 2> range{};
-  if (colon == std::string::npos || !CLI::detail::lexical_cast(text.substr(0, colon), range[0]) ||
-      !CLI::detail::lexical_cast(text.substr(colon + 1), range[1]) || !std::isfinite(range[0]) ||
-      !std::isfinite(range[1]) || !(range[0] < range[1]))
+  double lo = 0, hi = 0;
+  char rest = 0;
+  if (std::sscanf(text.c_str(), "%lf:%lf%c", &lo, &hi, &rest) != 2 || !(lo < hi) ||
+      !std::isfinite(lo) || !std::isfinite(hi))
     throw UsageError("--range: '" + text + "' is not LO:HI with LO below HI");
-  return range;
+  return {lo, hi};
 }
 
 TriMesh read_surface(const std::string& file) {
@@ -70,19 +69,11 @@ TriMesh read_surface(const std::string& file) {
   return mesh;
 }
 
-SurfaceDistance measure(const Tool& tool, const Arguments& arguments, const TriMesh& a) {
-  const TriMesh b = read_surface(arguments.b);
-  DistanceOptions options = arguments.options;
-  options.n_threads = tool.common().n_threads;
-  const auto start = std::chrono::steady_clock::now();
-  SurfaceDistance distance = measure_surface_distance(a, b, options, tool.progress("block"));
-  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
-  const auto n =
-      static_cast<double>(distance.forward.n_all_samples() + distance.backward.n_all_samples());
-  tool.say(format_fixed(n / 1e6, 2, "") + " million samples in " +
-           format_fixed(took.count(), 2, "") +
-           " s: " + format_fixed(n / 1e6 / took.count(), 2, "") + " million a second");
-  return distance;
+std::string format_speed(const SurfaceDistance& distance, double seconds) {
+  const double millions = 1e-6 * static_cast<double>(distance.forward.n_all_samples() +
+                                                     distance.backward.n_all_samples());
+  return format_fixed(millions, 2, "") + " million samples in " + format_fixed(seconds, 2, "") +
+         " s: " + format_fixed(millions / seconds, 2, "") + " million a second";
 }
 
 void write_color(const Tool& tool, const Arguments& arguments, const TriMesh& a,
@@ -97,18 +88,24 @@ void write_color(const Tool& tool, const Arguments& arguments, const TriMesh& a,
 }
 
 int run(const Tool& tool, const Arguments& arguments) {
-  std::array<double, 2> range{};
+  std::optional<std::array<double, 2>> range;
   if (arguments.range) range = parse_range(*arguments.range);
   const TriMesh a = read_surface(arguments.a);
-  const SurfaceDistance distance = measure(tool, arguments, a);
-  if (!arguments.range) range = default_color_range(distance);
-  if (!arguments.color.empty()) write_color(tool, arguments, a, distance, range);
+  const TriMesh b = read_surface(arguments.b);
+  DistanceOptions options = arguments.options;
+  options.n_threads = tool.common().n_threads;
+  const auto start = std::chrono::steady_clock::now();
+  const SurfaceDistance distance = measure_surface_distance(a, b, options, tool.progress("block"));
+  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
+  if (!arguments.color.empty())
+    write_color(tool, arguments, a, distance, range.value_or(default_color_range(distance)));
 
   const CommonOptions& common = tool.common();
   const std::string table_file = common.output.empty() ? "-" : common.output;
   if (!(common.json_file == "-" && table_file == "-"))
     write_file(table_file, format_surface_distance(distance));
-  tool.report(report_surface_distance(distance, arguments.options));
+  tool.report(report_surface_distance(distance, options));
+  tool.say(format_speed(distance, took.count()));
   return distance.symmetric().max > arguments.fail_above ? kOverThreshold : 0;
 }
 
