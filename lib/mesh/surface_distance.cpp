@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "mesh/closest_point.h"
+#include "mesh/io.h"
 #include "mesh/surface_samples.h"
 
 namespace viewcell {
@@ -222,6 +223,13 @@ SurfaceDistance measure_surface_distance(const TriMesh& a, const TriMesh& b,
   }
   if (options.unit_cube) change_to_unit_cube(result, box);
   return result;
+}
+
+TriMesh read_surface(const std::filesystem::path& file) {
+  TriMesh mesh = read_mesh(file);
+  if (!(surface_area(mesh) > 0))
+    throw InputError(file.string(), "", "has no area: every face is a line or a point");
+  return mesh;
 }
 
 }  // namespace viewcell

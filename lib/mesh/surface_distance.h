@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <filesystem>
 #include <vector>
 
 #include "base/parallel.h"
@@ -68,5 +69,8 @@ struct SurfaceDistance {
 SurfaceDistance measure_surface_distance(const TriMesh& a, const TriMesh& b,
                                          const DistanceOptions& options = {},
                                          const Progress& progress = {});
+
+/// read_mesh, and an InputError when all faces together have no area.
+TriMesh read_surface(const std::filesystem::path& file);
 
 }  // namespace viewcell

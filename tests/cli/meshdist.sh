@@ -32,7 +32,7 @@ for word in forward backward symmetric "forward is largest at" "max/diagonal %";
   grep -q "$word" "$log/out" || fail "no '$word' in the table"
 done
 grep -Eq '^symmetric +1 +1 +1 ' "$log/out" || fail "shifted squares are not 1 apart"
-grep -q "million a second" "$log/err" || fail "no summary on stderr"
+grep -q "million samples in" "$log/err" || fail "no summary on stderr"
 expect 0 "$meshdist" a.off a.off --samples 1000 -q
 [ ! -s "$log/err" ] || fail "words on stderr with -q"
 grep -Eq '^symmetric +[0-9.]+(e-1[5-9])? ' "$log/out" || fail "d(A, A): $(cat "$log/out")"

@@ -12,8 +12,6 @@
 #include "common/provenance.h"
 #include "common/tool.h"
 #include "mesh/distance_report.h"
-#include "mesh/io.h"
-#include "mesh/surface_samples.h"
 
 namespace viewcell {
 namespace {
@@ -42,8 +40,7 @@ void declare(Tool& tool, Arguments& arguments) {
   app.add_flag("--unit-cube", options.unit_cube,
                "results as if A were scaled into the unit cube, and B by the same factor");
   app.add_option("--color", arguments.color,
-                 "write A as PLY with its vertices' distances, as numbers and as colours: green "
-                 "near 0, red in between, blue far");
+                 "write A as PLY with distances of vertices, as colours too: green near, blue far");
   app.add_option("--range", arguments.range,
                  "LO:HI, distances of green and blue (default: 0 to the 99th percentile)");
   app.add_option("--histogram", options.n_bins, "count distances in this many equal parts of 0:max")
@@ -63,28 +60,23 @@ std::array<double, 2> parse_range(const std::string& text) {
   return {lo, hi};
 }
 
-TriMesh read_surface(const std::string& file) {
-  TriMesh mesh = read_mesh(file);
-  if (!(surface_area(mesh) > 0)) throw InputError(file, "", "has no area: no face is a triangle");
-  return mesh;
-}
-
-std::string format_speed(const SurfaceDistance& distance, double seconds) {
-  const double millions = 1e-6 * static_cast<double>(distance.forward.n_all_samples() +
-                                                     distance.backward.n_all_samples());
-  return format_fixed(millions, 2, "") + " million samples in " + format_fixed(seconds, 2, "") +
-         " s: " + format_fixed(millions / seconds, 2, "") + " million a second";
+std::string format_speed(double n_samples, double seconds) {
+  return format_fixed(1e-6 * n_samples, 2, "") + " million samples in " +
+         format_fixed(seconds, 2, "") + " s";
 }
 
 void write_color(const Tool& tool, const Arguments& arguments, const TriMesh& a,
                  const SurfaceDistance& distance, const std::array<double, 2>& range) {
-  const Json options{{"samples", arguments.options.n_samples},
-                     {"seed", arguments.options.seed},
-                     {"unit_cube", arguments.options.unit_cube},
-                     {"range", range}};
-  const Json inputs{{"a", hash_file(arguments.a)}, {"b", hash_file(arguments.b)}};
-  write_colored_mesh(arguments.color, a, distance, range,
-                     {"provenance " + make_provenance(tool, options, inputs).dump()});
+  const DistanceOptions& options = arguments.options;
+  const Json typed{{"samples", options.n_samples},
+                   {"seed", options.seed},
+                   {"unit_cube", options.unit_cube},
+                   {"range", range}};
+  write_colored_mesh(
+      arguments.color, a, distance, range,
+      {"provenance " +
+       make_provenance(tool, typed, {{"a", hash_file(arguments.a)}, {"b", hash_file(arguments.b)}})
+           .dump()});
 }
 
 int run(const Tool& tool, const Arguments& arguments) {
@@ -100,12 +92,12 @@ int run(const Tool& tool, const Arguments& arguments) {
   if (!arguments.color.empty())
     write_color(tool, arguments, a, distance, range.value_or(default_color_range(distance)));
 
-  const CommonOptions& common = tool.common();
-  const std::string table_file = common.output.empty() ? "-" : common.output;
-  if (!(common.json_file == "-" && table_file == "-"))
+  const std::string table_file = tool.common().output.empty() ? "-" : tool.common().output;
+  if (!(tool.common().json_file == "-" && table_file == "-"))
     write_file(table_file, format_surface_distance(distance));
   tool.report(report_surface_distance(distance, options));
-  tool.say(format_speed(distance, took.count()));
+  const std::size_t n = distance.forward.n_all_samples() + distance.backward.n_all_samples();
+  tool.say(format_speed(static_cast<double>(n), took.count()));
   return distance.symmetric().max > arguments.fail_above ? kOverThreshold : 0;
 }
 
@@ -115,9 +107,9 @@ int run(const Tool& tool, const Arguments& arguments) {
 int main(int argc, char** argv) {
   viewcell::Tool tool(
       "meshdist",
-      "Measures how far two surfaces are from each other, from A to B (forward) and from B to A: "
-      "the maximum over vertices, edges and faces (Hausdorff distance), mean, RMS and percentiles "
-      "over the area. Symmetric is the larger of both.",
+      "Measures how far surface A is from B (forward) and B from A: maximum over vertices, edges "
+      "and faces (Hausdorff distance), mean, RMS, percentiles over the area. Symmetric: the "
+      "larger.",
       "meshdist bunny.ply bunny-1000.ply --unit-cube --color error.ply --range 0:0.03\n"
       "  meshdist a.ply b.ply --fail-above 0.01 --json distance.json");
   viewcell::Arguments arguments;
