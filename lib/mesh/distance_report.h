@@ -19,7 +19,7 @@ Json report_surface_distance(const SurfaceDistance& distance, const DistanceOpti
 std::string format_surface_distance(const SurfaceDistance& distance);
 
 /// sRGB, [0, 255]: green at share 0, over yellow to red at 0.5, over magenta to blue at 1 [Chen06
-/// 4.4]. Clamped outside.
+/// 4.3]. Clamped outside.
 std::array<std::uint8_t, 3> distance_color(double share);
 
 /// The range [0, forward p99], or where that is 0 [0, forward max].

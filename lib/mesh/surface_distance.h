@@ -63,7 +63,7 @@ struct SurfaceDistance {
 
 /// d(A, A) is below 1e-15 of the largest coordinate, the rounding of samples. Vertices that no
 /// triangle uses do not count. Sums are taken in a fixed order: the same for any number of threads.
-/// Both meshes must have an area above 0. Memory: 8 bytes a sample. Some 1.5 million samples a
+/// Both meshes must have an area above 0. Memory: 16 bytes a sample. Some 1.5 million samples a
 /// second and core where the surfaces are near; a tenth of it where they are parallel and far apart
 /// for the size of their triangles, since many are then almost the nearest.
 SurfaceDistance measure_surface_distance(const TriMesh& a, const TriMesh& b,
