@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include "base/error.h"
 #include "pm/wedge_mesh.h"
@@ -71,9 +72,9 @@ class Recorder {
     return has_moved_[v] ? p / scale_ : input_[v];
   }
   // After it.
-  void made(std::uint32_t u, std::uint32_t v, float cost, const CollapseTrace& trace) {
+  void made(std::uint32_t u, std::uint32_t v, float cost, float error, const CollapseTrace& trace) {
     const auto& pairs = matched_;
-    made_.push_back({{u, v, size32(trace.died), size32(trace.moved), size32(pairs), cost},
+    made_.push_back({{u, v, size32(trace.died), size32(trace.moved), size32(pairs), cost, error},
                      born_.size(),
                      moved_.size(),
                      pairs_.size()});
@@ -163,6 +164,8 @@ template <typename Metric>
 struct Recorded {
   Metric& metric;
   Recorder& recorder;
+  MappingMetric* guard;  // of the error bound, or none
+  float error_bound;
   static constexpr int kReach = [] {
     if constexpr (requires { Metric::kReach; }) return Metric::kReach;
     return 1;
@@ -173,7 +176,16 @@ struct Recorded {
   { return metric.place(u, v); }
   Refusal allows(const CollapseMesh& mesh, std::uint32_t u, std::uint32_t v) {
     if (!recorder.match(mesh, u, v)) return Refusal::chart;
-    return as_refusal(metric.allows(mesh, u, v));
+    const Refusal refusal = as_refusal(metric.allows(mesh, u, v));
+    if (refusal != Refusal::none || !guard) return refusal;
+    if (guard->allows(mesh, u, v) != Refusal::none) return Refusal::bound;
+    return guard->next_reach() <= error_bound ? Refusal::none : Refusal::bound;
+  }
+  // A bound of the distance from the input so far.
+  float error() const {
+    if (guard) return guard->bound();
+    if constexpr (requires { metric.bound(); }) return metric.bound();
+    return -1;
   }
   void traced(std::uint32_t u, std::uint32_t v, const CollapseTrace& trace) {
     if constexpr (requires { metric.traced(u, v, trace); }) metric.traced(u, v, trace);
@@ -182,21 +194,24 @@ struct Recorded {
   template <typename... Place>
   void collapsed(std::uint32_t u, std::uint32_t v, const Place&... place) {
     metric.collapsed(u, v, place...);
+    if (guard) guard->collapsed(u, v);
   }
 };
 
 // Runs the loop in slices, for the progress.
 template <typename Metric>
-CollapseCounts collapse_all(CollapseMesh& mesh, Metric& metric, Recorder& recorder, float scale,
-                            const BuildOptions& options, const Progress& progress) {
+CollapseCounts collapse_all(CollapseMesh& mesh, Metric& metric, Recorder& recorder,
+                            MappingMetric* guard, float scale, const BuildOptions& options,
+                            const Progress& progress) {
   constexpr std::size_t kSlices = 100;
-  Recorded<Metric> recorded{metric, recorder};
+  Recorded<Metric> recorded{metric, recorder, guard, options.error_bound * scale};
   CollapseLoop loop(mesh, recorded);
   const std::size_t start = mesh.n_triangles();
   const std::size_t span = start - std::min(start, options.target_faces);
   CollapseCounts total;
   const auto made = [&](std::uint32_t u, std::uint32_t v, float cost, const CollapseTrace& trace) {
-    recorder.made(u, v, cost / scale, trace);
+    const float error = recorded.error();
+    recorder.made(u, v, cost / scale, error < 0 ? error : error / scale, trace);
   };
   for (std::size_t slice = 1; slice <= kSlices; ++slice) {
     const std::size_t target = start - span * slice / kSlices;
@@ -221,8 +236,12 @@ CollapseCounts run_metric(CollapseMesh& mesh, WedgeMesh& wedges,
                           const std::vector<Triangle>& triangles, Recorder& recorder, float scale,
                           const BuildOptions& options, const Progress& progress) {
   std::vector<glm::vec3>& positions = wedges.positions;
+  std::optional<MappingMetric> guard;
+  if (std::isfinite(options.error_bound))
+    guard.emplace(mesh, recorder.table(), positions, std::span<const glm::vec2>(), triangles);
   const auto run = [&](auto&& metric) {
-    return collapse_all(mesh, metric, recorder, scale, options, progress);
+    return collapse_all(mesh, metric, recorder, guard ? &*guard : nullptr, scale, options,
+                        progress);
   };
   if (options.metric == MetricKind::aps || options.metric == MetricKind::mapping)
     return run(MappingMetric(
@@ -246,6 +265,8 @@ void check_options(const TriMesh& mesh, const BuildOptions& options) {
                          options.metric == MetricKind::qem5;
   if (options.metric == MetricKind::lt && options.placement == Placement::half)
     throw UsageError("metric lt places vertices anew: it needs --placement full");
+  if (std::isfinite(options.error_bound) && options.placement == Placement::full)
+    throw UsageError("an error bound is for half-edge collapses: it needs --placement half");
   if (is_mapped && options.placement == Placement::full)
     throw UsageError(std::string("metric ") + metric_name(options.metric) +
                      " is for half-edge collapses: it needs --placement half");

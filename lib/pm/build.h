@@ -27,6 +27,9 @@ struct BuildOptions {
   Placement placement = Placement::half;  ///< lt needs full
   std::size_t target_faces = 0;           ///< stop at or below; 0: as far as it goes
   float max_cost = std::numeric_limits<float>::infinity();  ///< of a collapse, the metric's unit
+  /// Collapses after which the surface might be farther than this from the input, or the input from
+  /// it, are refused; mesh units. For half-edge collapses. Every level then knows its error().
+  float error_bound = std::numeric_limits<float>::infinity();
   bool lazy = true;         ///< costs are looked at again when they come up, see CollapseLimits
   float min_cosine = 0.2f;  ///< a normal may turn by up to acos of this
   bool total_error = true;  ///< aps, mapping: distance to the input, not to the step before

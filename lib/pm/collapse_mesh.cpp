@@ -6,8 +6,8 @@
 namespace viewcell {
 
 const char* refusal_name(Refusal refusal) {
-  constexpr const char* names[kRefusalKinds] = {"none",   "link",  "boundary", "flip",
-                                                "sliver", "chart", "fold",     "metric"};
+  constexpr const char* names[kRefusalKinds] = {"none",  "link", "boundary", "flip",  "sliver",
+                                                "chart", "fold", "bound",    "metric"};
   return names[static_cast<int>(refusal)];
 }
 

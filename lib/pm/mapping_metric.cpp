@@ -13,6 +13,7 @@ MappingMetric::MappingMetric(const CollapseMesh& mesh, const WedgeTable& wedges,
     : options_(options), map_(mesh, wedges, positions, texcoords, options.matching) {
   if (options.measure == Measure::max) {
     boxes_.resize(options.total ? triangles.size() : 0);
+    if (options.total) bound_ = 0;
     return;
   }
   moments_.resize(triangles.size());
@@ -90,6 +91,10 @@ float MappingMetric::cost(std::uint32_t u, std::uint32_t v) {
   }
   if (!options_.total) return static_cast<float>(map_.largest_shift());
   add_up();
+  return next_reach();
+}
+
+float MappingMetric::next_reach() const {
   float reach2 = 0;
   for (const Deviation& d : next_) reach2 = std::max(reach2, d.box.reach2());
   return std::sqrt(reach2);
@@ -109,10 +114,8 @@ void MappingMetric::collapsed(std::uint32_t, std::uint32_t) {
     for (const NextMoments& next : next_moments_) moments_[next.face] = next.moments;
     return;
   }
-  for (const Deviation& d : next_) {
-    boxes_[d.face] = d.box;
-    bound_ = std::max(bound_, std::sqrt(d.box.reach2()));
-  }
+  for (const Deviation& d : next_) boxes_[d.face] = d.box;
+  bound_ = std::max(bound_, next_reach());
 }
 
 }  // namespace viewcell

@@ -41,8 +41,11 @@ class MappingMetric {
   /// Not when a face would turn over in the texture (Refusal::fold).
   Refusal allows(const CollapseMesh&, std::uint32_t u, std::uint32_t v);
   void collapsed(std::uint32_t u, std::uint32_t v);
-  /// The largest deviation of any face that was made so far; a bound with `total` only.
+  /// With `total` and Measure::max: no point of the mesh, nor of the input, is farther than this
+  /// from the other surface (otherwise below 0); and how far a face would be after the collapse
+  /// last allowed.
   float bound() const { return bound_; }
+  float next_reach() const;
 
  private:
   struct Deviation {
@@ -73,8 +76,8 @@ class MappingMetric {
     double area;
   };
   std::vector<OldArea> old_areas_;  // of the last map's cells, by old face
-  float bound_ = 0;
-  double area_ = 1;  // of the whole surface
+  float bound_ = -1;                // until there is one
+  double area_ = 1;                 // of the whole surface
 };
 
 }  // namespace viewcell

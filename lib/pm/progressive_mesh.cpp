@@ -17,6 +17,10 @@ float ProgressiveMesh::cost() const {
   return level_ < n_splits() ? record_.splits[level_].cost : 0;
 }
 
+float ProgressiveMesh::error() const {
+  return level_ < n_splits() ? record_.splits[level_].error : 0;
+}
+
 // The parent as before and as after the collapse change places with the record.
 void ProgressiveMesh::swap_stash(const VertexSplit& split, std::size_t first_pair) {
   if (!record_.is_full_edge()) return;

@@ -19,8 +19,11 @@ struct VertexSplit {
   std::uint32_t n_moved = 0;            ///< corners that go from the parent's wedges to the child's
   std::uint32_t n_pairs = 0;            ///< wedges of the child, each with the parent's that had it
   float cost = 0;                       ///< the metric's, of the collapse
+  /// After the collapse no point of mesh or input is farther than this from the other surface;
+  /// below 0: not known.
+  float error = -1;
 };
-static_assert(sizeof(VertexSplit) == 24);
+static_assert(sizeof(VertexSplit) == 28);
 
 /// A progressive mesh at its coarsest, as its file has it. Vertices, faces and their numbers are
 /// the input's. Wedge w < positions.size() is what is drawn at vertex w of the input; further
@@ -63,6 +66,9 @@ class ProgressiveMesh {
   std::size_t level() const { return level_; }
   /// The cost of the collapse that made this level from the next finer one; 0 at the input.
   float cost() const;
+  /// A bound on the distance of this level and the input, both ways; 0 at the input, below 0 when
+  /// it is not known.
+  float error() const;
 
   void refine();   ///< level() < n_splits()
   void coarsen();  ///< level() > 0

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "base/error.h"
+#include "mesh/surface_distance.h"
 #include "pm/build.h"
 #include "pm/nearest.h"
 #include "pm/shapes.h"
@@ -207,6 +208,69 @@ TEST(MappingMetric, FlatCostsNothing) {
     const BuildResult built = build_progressive_mesh(grid, options);
     EXPECT_LE(built.record.faces.size() - built.record.born.size(), 4u);
   }
+}
+
+// A sphere of 128 triangles with random radii; texture coordinates by latitude and longitude of
+// each hemisphere, off by some noise.
+TriMesh make_small_sphere(std::uint64_t seed) {
+  Random random(seed);
+  TriMesh mesh = make_noisy_sphere(2, 0.3, seed);
+  std::vector<glm::vec2> uv;
+  for (const glm::vec3& p : mesh.positions) {
+    const glm::vec3 n = glm::normalize(p);
+    uv.emplace_back(n.x + random.uniform(-0.02, 0.02), n.y + random.uniform(-0.02, 0.02));
+  }
+  for (const Triangle& t : mesh.triangles) {
+    float z = 0;
+    for (const std::uint32_t v : t) z += mesh.positions[v].z;
+    for (const std::uint32_t v : t) mesh.texcoords.push_back(uv[v] + glm::vec2(z > 0 ? 3 : 0, 0));
+  }
+  return mesh;
+}
+
+double measure_max(const TriMesh& a, const TriMesh& b) {
+  DistanceOptions options;
+  options.n_samples = 2000;
+  options.n_threads = 1;
+  return measure_surface_distance(a, b, options).symmetric().max;
+}
+
+TEST(MappingMetric, TotalErrorsHold) {
+  double tightest = 0;
+  for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+    SCOPED_TRACE(seed);
+    const TriMesh sphere = make_small_sphere(seed);
+    BuildOptions options;
+    options.metric = seed % 2 ? MetricKind::mapping : MetricKind::aps;
+    if (seed % 3 == 0) {  // the bound beside another metric
+      options.metric = MetricKind::qem3;
+      options.error_bound = 1e30f;
+    }
+    ProgressiveMesh pm(build_progressive_mesh(sphere, options).record);
+    for (const std::size_t n : {100u, 50u, 20u}) {
+      pm.set_faces(n);
+      if (pm.n_faces() < 8) continue;
+      const double measured = measure_max(sphere, pm.extract());
+      ASSERT_GE(pm.error(), 0);
+      ASSERT_LE(measured, pm.error() * (1 + 1e-6)) << n;
+      tightest = std::max(tightest, measured / pm.error());
+    }
+  }
+  EXPECT_GT(tightest, 0.8);
+}
+
+TEST(MappingMetric, ABoundIsKept) {
+  const TriMesh sphere = make_noisy_sphere(4, 0.02, 3);
+  BuildOptions options;
+  options.error_bound = 0.05f;
+  const BuildResult built = build_progressive_mesh(sphere, options);
+  EXPECT_GT(built.counts.n_refused[static_cast<std::size_t>(Refusal::bound)], 0u);
+  ProgressiveMesh pm(built.record);
+  EXPECT_LE(pm.error(), 0.05f);
+  EXPECT_LT(pm.n_faces(), sphere.triangles.size() / 4);
+  EXPECT_LE(measure_max(sphere, pm.extract()), 0.05);
+  options.placement = Placement::full;
+  EXPECT_THROW(build_progressive_mesh(sphere, options), UsageError);
 }
 
 TEST(MappingMetric, NeedsTextureCoordinates) {

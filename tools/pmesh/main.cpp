@@ -61,6 +61,11 @@ CLI::App& declare_build(CLI::App& app, Arguments& a) {
                   "qem5: of a length in the texture, once its area is scaled to the surface's")
       ->capture_default_str()
       ->check(within(0, 1e6));
+  build
+      .add_option("--bounded", a.build.error_bound,
+                  "refuse what could bring a point farther than this from the other surface, in "
+                  "units of the mesh (half-edge collapses)")
+      ->check(within(1e-30, 1e30));
   build.add_flag("--exact", a.exact, "look at every changed cost at once, not when it comes up");
   return build;
 }
@@ -105,6 +110,7 @@ Json format_options(const BuildOptions& b) {
   if (b.metric == MetricKind::aps || b.metric == MetricKind::mapping)
     out["error"] = b.total_error ? "total" : "incremental";
   if (b.metric == MetricKind::mapping) out["measure"] = b.measure == Measure::mean ? "mean" : "max";
+  if (std::isfinite(b.error_bound)) out["error_bound"] = b.error_bound;
   if (b.metric == MetricKind::qem5) out["texture_weight"] = b.texture_weight;
   if (b.metric == MetricKind::qem3 || b.metric == MetricKind::qem5) {
     out["area_weighted"] = b.qem.area_weighted;
@@ -174,8 +180,10 @@ int extract(const Tool& tool, const Arguments& a) {
   const TriMesh out = mesh.extract();
   write_ply(tool.common().output, out, {std::string("made by pmesh ") + version()});
   tool.say(std::to_string(out.triangles.size()) + " faces");
-  tool.report(
-      {{"faces", out.triangles.size()}, {"vertices", out.positions.size()}, {"cost", mesh.cost()}});
+  tool.report({{"faces", out.triangles.size()},
+               {"vertices", out.positions.size()},
+               {"cost", mesh.cost()},
+               {"error_bound", mesh.error() < 0 ? Json() : Json(mesh.error())}});
   if (out.triangles.size() <= a.n_faces) return 0;
   std::fprintf(stderr, "pmesh: %s: %zu faces were asked for, its base has %zu\n", a.pm.c_str(),
                a.n_faces, mesh.n_base_faces());
