@@ -207,7 +207,7 @@ CollapseCounts collapse_all(CollapseMesh& mesh, Metric& metric, Recorder& record
   Recorded<Metric> recorded{metric, recorder, guard, options.error_bound * scale};
   CollapseLoop loop(mesh, recorded);
   const std::size_t start = mesh.n_triangles();
-  const std::size_t span = start - std::min(start, options.target_faces);
+  const std::size_t span = start - std::min(start, std::max<std::size_t>(options.target_faces, 1));
   CollapseCounts total;
   const auto made = [&](std::uint32_t u, std::uint32_t v, float cost, const CollapseTrace& trace) {
     const float error = recorded.error();
@@ -260,20 +260,17 @@ CollapseCounts run_metric(CollapseMesh& mesh, WedgeMesh& wedges,
 }
 
 void check_options(const TriMesh& mesh, const BuildOptions& options) {
-  const bool is_mapped = options.metric == MetricKind::aps ||
-                         options.metric == MetricKind::mapping ||
-                         options.metric == MetricKind::qem5;
   if (options.metric == MetricKind::lt && options.placement == Placement::half)
     throw UsageError("metric lt places vertices anew: it needs --placement full");
   if (std::isfinite(options.error_bound) && options.placement == Placement::full)
     throw UsageError("an error bound is for half-edge collapses: it needs --placement half");
-  if (is_mapped && options.placement == Placement::full)
-    throw UsageError(std::string("metric ") + metric_name(options.metric) +
-                     " is for half-edge collapses: it needs --placement half");
-  if (is_mapped && mesh.texcoords.empty())
-    throw InputError("mesh", "",
-                     std::string("has no texture coordinates, which metric ") +
-                         metric_name(options.metric) + " needs; uvpatch makes some");
+  if (!needs_texture(options.metric)) return;
+  const std::string metric = std::string("metric ") + metric_name(options.metric);
+  if (options.placement == Placement::full)
+    throw UsageError(metric + " is for half-edge collapses: it needs --placement half");
+  if (mesh.texcoords.empty())
+    throw InputError(options.name, "",
+                     "has no texture coordinates, which " + metric + " needs; uvpatch makes some");
 }
 
 }  // namespace
@@ -289,6 +286,10 @@ const char* metric_name(MetricKind metric) {
 }
 const char* placement_name(Placement placement) {
   return kPlacementNames[static_cast<std::size_t>(placement)];
+}
+
+bool needs_texture(MetricKind metric) {
+  return metric == MetricKind::qem5 || metric == MetricKind::aps || metric == MetricKind::mapping;
 }
 
 BuildResult build_progressive_mesh(const TriMesh& mesh, const BuildOptions& options,

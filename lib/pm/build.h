@@ -20,12 +20,15 @@ enum class Placement { half, full };
 MetricKind parse_metric(const std::string& name);
 Placement parse_placement(const std::string& name);
 const char* metric_name(MetricKind metric);
+/// Whether the metric is for meshes with texture coordinates only.
+bool needs_texture(MetricKind metric);
 const char* placement_name(Placement placement);
 
 struct BuildOptions {
+  std::string name = "mesh";  ///< for errors: the file
   MetricKind metric = MetricKind::qem3;
-  Placement placement = Placement::half;  ///< lt needs full
-  std::size_t target_faces = 0;           ///< stop at or below; 0: as far as it goes
+  Placement placement = Placement::half;                    ///< lt needs full
+  std::size_t target_faces = 1;                             ///< stop at or below; at least 1
   float max_cost = std::numeric_limits<float>::infinity();  ///< of a collapse, the metric's unit
   /// Collapses after which the surface might be farther than this from the input, or the input from
   /// it, are refused; mesh units. For half-edge collapses. Every level then knows its error().

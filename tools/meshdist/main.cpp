@@ -1,5 +1,4 @@
 // meshdist: how far two surfaces are from each other.
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <limits>
@@ -10,6 +9,7 @@
 #include "base/file.h"
 #include "base/table.h"
 #include "common/provenance.h"
+#include "common/stopwatch.h"
 #include "common/tool.h"
 #include "mesh/distance_report.h"
 
@@ -86,9 +86,9 @@ int run(const Tool& tool, const Arguments& arguments) {
   const TriMesh b = read_surface(arguments.b);
   DistanceOptions options = arguments.options;
   options.n_threads = tool.common().n_threads;
-  const auto start = std::chrono::steady_clock::now();
+  Stopwatch watch;
   const SurfaceDistance distance = measure_surface_distance(a, b, options, tool.progress("block"));
-  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
+  const double took_s = watch.lap_s();
   if (!arguments.color.empty())
     write_color(tool, arguments, a, distance, range.value_or(default_color_range(distance)));
 
@@ -97,7 +97,7 @@ int run(const Tool& tool, const Arguments& arguments) {
     write_file(table_file, format_surface_distance(distance));
   tool.report(report_surface_distance(distance, options));
   const std::size_t n = distance.forward.n_all_samples() + distance.backward.n_all_samples();
-  tool.say(format_speed(static_cast<double>(n), took.count()));
+  tool.say(format_speed(static_cast<double>(n), took_s));
   return distance.symmetric().max > arguments.fail_above ? kOverThreshold : 0;
 }
 

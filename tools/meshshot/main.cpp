@@ -1,5 +1,4 @@
 // meshshot: pictures of a mesh from all sides.
-#include <chrono>
 #include <optional>
 #include <utility>
 
@@ -7,6 +6,7 @@
 #include "base/file.h"
 #include "base/table.h"
 #include "common/provenance.h"
+#include "common/stopwatch.h"
 #include "common/tool.h"
 #include "gl/context.h"
 #include "image/io.h"
@@ -113,23 +113,19 @@ Json format_provenance(const Tool& tool, const Options& o) {
 }
 
 int run(const Tool& tool, Options& o) {
-  double last_s = 0;
-  const auto lap_s = [&last_s, start = std::chrono::steady_clock::now()] {
-    const std::chrono::duration<double> now = std::chrono::steady_clock::now() - start;
-    return now.count() - std::exchange(last_s, now.count());
-  };
+  Stopwatch watch;
   settle_options(tool, o);
   const TriMesh mesh = read_mesh(o.mesh_file);
   const MeshFrame frame = choose_frame(o, mesh);
   const std::optional<ImageRgba8> texture = read_texture(o, mesh);
-  const double read_s = lap_s();
+  const double read_s = watch.lap_s();
   const GlContext context(parse_gl_engine(o.gl));
   const MeshRenderer renderer(context.gl(), mesh, frame, texture ? &*texture : nullptr, o.style);
-  const double upload_s = lap_s();
+  const double upload_s = watch.lap_s();
   o.shots.title = fs::path(o.mesh_file).filename().string() + ", " +
                   std::to_string(mesh.triangles.size()) + " triangles";
   const std::vector<MeshShot> shots = write_mesh_shots(renderer, o.shots, tool.progress("views"));
-  const double views_s = lap_s();
+  const double views_s = watch.lap_s();
 
   const double reach = measure_reach(mesh, frame);
   tool.report({{"made_by", format_provenance(tool, o)},

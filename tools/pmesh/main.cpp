@@ -6,6 +6,7 @@
 #include "base/file.h"
 #include "base/table.h"
 #include "common/provenance.h"
+#include "common/stopwatch.h"
 #include "common/tool.h"
 #include "mesh/io.h"
 #include "pm/build.h"
@@ -105,7 +106,7 @@ Json format_options(const BuildOptions& b) {
            {"placement", placement_name(b.placement)},
            {"lazy", b.lazy},
            {"min_cosine", b.min_cosine}};
-  if (b.target_faces > 0) out["target_faces"] = b.target_faces;
+  if (b.target_faces > 1) out["target_faces"] = b.target_faces;
   if (std::isfinite(b.max_cost)) out["max_cost"] = b.max_cost;
   if (b.metric == MetricKind::aps || b.metric == MetricKind::mapping)
     out["error"] = b.total_error ? "total" : "incremental";
@@ -148,16 +149,24 @@ int build(const Tool& tool, Arguments& a) {
   options.total_error = a.error == "total";
   options.measure = a.measure == "mean" ? Measure::mean : Measure::max;
   set_stop(a.stop_at, options);
+  options.name = a.model;
+  Stopwatch watch;
   const TriMesh mesh = read_mesh(a.model);
+  const double read_s = watch.lap_s();
   BuildResult result = build_progressive_mesh(mesh, options, tool.progress("percent"));
+  const double build_s = watch.lap_s();
   const std::size_t n_faces = result.record.faces.size();
   const std::size_t n_base = n_faces - result.record.born.size();
   result.record.made_by =
       make_provenance(tool, format_options(options), {{"model", hash_file(a.model)}}).dump();
   write_pm(tool.common().output, result.record);
   const CollapseCounts& counts = result.counts;
-  tool.say(std::to_string(n_faces) + " -> " + std::to_string(n_base) + " faces, " +
-           std::to_string(counts.n_collapses) + " collapses; refused: " + format_refusals(counts));
+  const bool is_short =
+      !a.stop_at.empty() && options.target_faces > 1 && n_base > options.target_faces;
+  if (!is_short)
+    tool.say(std::to_string(n_faces) + " -> " + std::to_string(n_base) + " faces, " +
+             std::to_string(counts.n_collapses) +
+             " collapses; refused: " + format_refusals(counts));
   tool.report({{"faces_in", n_faces},
                {"faces_base", n_base},
                {"collapses", counts.n_collapses},
@@ -165,8 +174,9 @@ int build(const Tool& tool, Arguments& a) {
                {"cost_evaluations", counts.n_costs},
                {"cost_max", counts.last_cost},
                {"vertices_welded", result.n_welded},
-               {"faces_dropped", result.n_dropped}});
-  if (options.target_faces == 0 || n_base <= options.target_faces) return 0;
+               {"faces_dropped", result.n_dropped},
+               {"timing", {{"read_s", read_s}, {"build_s", build_s}}}});
+  if (!is_short) return 0;
   std::fprintf(stderr, "pmesh: %zu faces were asked for, %zu remain; refused: %s\n",
                options.target_faces, n_base, format_refusals(counts).c_str());
   return kOverThreshold;
@@ -179,7 +189,7 @@ int extract(const Tool& tool, const Arguments& a) {
   mesh.set_faces(a.n_faces);
   const TriMesh out = mesh.extract();
   write_ply(tool.common().output, out, {std::string("made by pmesh ") + version()});
-  tool.say(std::to_string(out.triangles.size()) + " faces");
+  if (out.triangles.size() <= a.n_faces) tool.say(std::to_string(out.triangles.size()) + " faces");
   tool.report({{"faces", out.triangles.size()},
                {"vertices", out.positions.size()},
                {"cost", mesh.cost()},

@@ -1,0 +1,111 @@
+#!/usr/bin/env bash
+# Types pmesh's commands and holds exit codes, streams, reports and bytes. First argument: the folder
+# of binaries.
+set -euo pipefail
+here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+bin=$1
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+log=$work/log
+mkdir "$log" "$work/run"
+cd "$work/run"
+. "$here/lib.sh"
+pmesh=$bin/pmesh
+
+ball 24 1 >ball.off
+# A square grid in relief, with texture coordinates.
+awk 'BEGIN {
+  n = 16
+  for (y = 0; y <= n; y++) for (x = 0; x <= n; x++)
+    printf "v %g %g %g\nvt %g %g\n", x, y, sin(x) * cos(y * 0.7), x / n, y / n
+  for (y = 0; y < n; y++) for (x = 0; x < n; x++) {
+    a = y * (n + 1) + x + 1; b = a + 1; c = a + n + 1; d = c + 1
+    printf "f %d/%d %d/%d %d/%d\nf %d/%d %d/%d %d/%d\n", a, a, b, b, d, d, a, a, d, d, c, c
+  }
+}' >relief.obj
+
+expect 0 "$pmesh" --help
+grep -q "Example:" "$log/out" || fail "--help has no example"
+expect 0 "$pmesh" --version
+
+# Every metric: built, asked about, taken out at a size, and whole again.
+for metric in qem3 qem5 aps mapping lt; do
+  expect 0 "$pmesh" build relief.obj --metric $metric -o $metric.pm --json report.json
+  grep -q "512 -> " "$log/err" || fail "no summary: $(cat "$log/err")"
+  for key in faces_in faces_base collapses refused timing cost_evaluations; do
+    grep -q "\"$key\": " report.json || fail "no $key in the report of $metric"
+  done
+  expect 0 "$pmesh" info $metric.pm
+  grep -q '"faces": 512' "$log/out" && grep -q "\"metric\": \"$metric\"" "$log/out" ||
+    fail "info $metric: $(cat "$log/out")"
+  expect 0 "$pmesh" extract $metric.pm --faces 100 -o $metric-100.ply --json report.json
+  grep -Eq '"faces": (99|100)$|"faces": (99|100),' report.json || fail "100 faces: $(cat report.json)"
+  expect 0 "$pmesh" extract $metric.pm --faces 100000 -o $metric-all.ply
+  cmp -s $metric-all.ply qem3-all.ply || fail "$metric: the finest level is not the input"
+  expect 0 "$pmesh" build relief.obj --metric $metric -o again.pm -q
+  [ ! -s "$log/err" ] || fail "words on stderr with -q"
+  cmp -s again.pm $metric.pm || fail "$metric: other bytes the second time"
+done
+expect 0 "$pmesh" build relief.obj --metric mapping --measure mean -o mean.pm
+! cmp -s mean.pm mapping.pm || fail "--measure mean changes nothing"
+expect 0 "$pmesh" build relief.obj --metric mapping --error incremental -o step.pm
+! cmp -s step.pm mapping.pm || fail "--error incremental changes nothing"
+
+# A bound is a distance that meshdist does not pass.
+expect 0 "$pmesh" build relief.obj --bounded 0.2 -o bounded.pm
+expect 0 "$pmesh" extract bounded.pm --faces 1000000 -o whole.ply
+base=$("$pmesh" info bounded.pm | grep -o '"faces_base": [0-9]*' | grep -o '[0-9]*$')
+expect 0 "$pmesh" extract bounded.pm --faces "$base" -o coarse.ply --json report.json
+grep -q '"error_bound": 0' report.json || fail "no error_bound: $(cat report.json)"
+expect 0 "$bin/meshdist" whole.ply coarse.ply --samples 20000 --fail-above 0.2
+
+# A target that cannot be reached is said, with the reasons, and what there is is written.
+expect 5 "$pmesh" build ball.off --stop-at 2 -o stuck.pm
+[ "$(wc -l <"$log/err")" -eq 1 ] && grep -q "2 faces were asked for, .* by link" "$log/err" ||
+  fail "stuck: $(cat "$log/err")"
+expect 0 "$pmesh" info stuck.pm
+expect 5 "$pmesh" extract stuck.pm --faces 1 -o few.ply
+grep -q "its base has" "$log/err" || fail "too few: $(cat "$log/err")"
+expect 0 "$pmesh" build ball.off --stop-at 300 -o some.pm
+expect 0 "$pmesh" info some.pm
+grep -q '"faces_base": 300' "$log/out" || fail "--stop-at 300: $(cat "$log/out")"
+expect 0 "$pmesh" build ball.off --stop-at 0.01 -o cheap.pm
+
+# To a pipe, and from a kilometre to a nanometre.
+"$pmesh" extract some.pm --faces 400 -o - -q | head -c 3 | grep -q ply || fail "-o -"
+for size in 1e30 1e-30; do
+  ball 12 $size >sized.off
+  expect 0 "$pmesh" build sized.off --metric lt --stop-at 100 -o sized.pm
+  expect 0 "$pmesh" extract sized.pm --faces 100 -o sized.ply
+done
+printf 'OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n' >one.off
+expect 0 "$pmesh" build one.off -o one.pm
+expect 0 "$pmesh" extract one.pm --faces 1 -o one.ply
+
+# Bad input: one line, nothing written.
+for metric in qem5 aps mapping; do
+  fault 1 "ball.off: has no texture coordinates" "$pmesh" build ball.off --metric $metric -o x.pm
+done
+fault 2 "placement" "$pmesh" build ball.off --metric lt --placement half -o x.pm
+fault 2 "placement" "$pmesh" build relief.obj --metric aps --placement full -o x.pm
+fault 2 "bound" "$pmesh" build ball.off --placement full --bounded 1 -o x.pm
+fault 2 "is no metric" "$pmesh" build ball.off --metric best -o x.pm
+fault 2 "needs -o" "$pmesh" build ball.off
+fault 2 "needs -o" "$pmesh" extract some.pm --faces 400
+for stop in 0 -3 many 1e 0.0; do fault 2 "" "$pmesh" build ball.off --stop-at=$stop -o x.pm; done
+fault 1 "gone.off" "$pmesh" build gone.off -o x.pm
+fault 1 "gone.pm" "$pmesh" info gone.pm
+fault 1 "ball.off: is" "$pmesh" info ball.off
+cp some.pm bad.pm
+size=$(stat -c %s bad.pm)
+for cut in 0 10 100 $((size / 2)) $((size - 1)); do
+  head -c $cut some.pm >bad.pm
+  fault 1 "bad.pm" "$pmesh" extract bad.pm --faces 400 -o x.ply
+done
+for at in 9 40 700 $((size / 3)) $((size - 9)); do
+  cp some.pm bad.pm
+  overwrite bad.pm $at '\377\376\375'
+  fault 1 "bad.pm" "$pmesh" extract bad.pm --faces 400 -o x.ply
+done
+fault 3 "" "$pmesh" build ball.off -o nowhere/x.pm
+echo "pmesh.sh: $n_faults faults"
