@@ -23,4 +23,17 @@ TriMesh read_mesh(const std::filesystem::path& file);
 void write_ply(const std::filesystem::path& file, const TriMesh& mesh,
                const std::vector<std::string>& comments = {});
 
+/// What an OBJ file says beside the mesh.
+struct ObjOptions {
+  std::vector<std::string> comments;  ///< lines at the head; line breaks in them become blanks
+  std::string material_library;       ///< file beside it, for "mtllib"; empty: none
+  std::string material;               ///< for "usemtl", where the mesh has no materials; or empty
+};
+
+/// Wavefront OBJ: positions, and normals, texture coordinates and materials' names where present;
+/// colours are left out. Numbers are the shortest that read back to the same floats; of equal
+/// texture coordinates one is written. Whole or not at all.
+void write_obj(const std::filesystem::path& file, const TriMesh& mesh,
+               const ObjOptions& options = {});
+
 }  // namespace viewcell

@@ -188,6 +188,18 @@ MeshTopology measure_topology(const TriMesh& mesh) {
   return out;
 }
 
+std::vector<std::uint32_t> match_positions(const TriMesh& mesh) {
+  const std::vector<glm::vec3>& at = mesh.positions;
+  std::vector<std::uint32_t> order(at.size()), first(at.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::sort(order.begin(), order.end(), [&at](std::uint32_t a, std::uint32_t b) {
+    return std::tie(at[a].x, at[a].y, at[a].z, a) < std::tie(at[b].x, at[b].y, at[b].z, b);
+  });
+  for (std::size_t i = 0; i < order.size(); ++i)
+    first[order[i]] = i > 0 && at[order[i]] == at[order[i - 1]] ? first[order[i - 1]] : order[i];
+  return first;
+}
+
 MeshDefects clean_mesh(TriMesh& mesh) {
   MeshDefects defects;
   const std::vector<bool> is_duplicate = find_duplicates(mesh);

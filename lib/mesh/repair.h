@@ -37,6 +37,9 @@ struct MeshDefects {
   std::size_t n_removed() const { return n_repeated_index + n_zero_area + n_duplicates; }
 };
 
+/// Per vertex: the lowest number of a vertex at its position. O(n log n).
+std::vector<std::uint32_t> match_positions(const TriMesh& mesh);
+
 /// Removes triangles that show nothing; the rest keep their order and their attributes. Vertices
 /// stay, so their numbers do. The two sides of a sheet (the same vertices in opposite turns) stay.
 MeshDefects clean_mesh(TriMesh& mesh);

@@ -1,0 +1,39 @@
+// A patch with texture coordinates, and what is measured of it: cut, parameterised, distorted.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "mesh/distort.h"
+#include "mesh/parameterize.h"
+#include "mesh/patch.h"
+#include "mesh/repair.h"
+#include "mesh/uv_stretch.h"
+
+namespace viewcell {
+
+struct TexturedPatchOptions {
+  std::size_t n_faces = kAllFaces;      ///< kAllFaces: the component, which must be a disk
+  std::optional<std::uint32_t> around;  ///< a vertex; none: find_top_vertex along `up`
+  glm::dvec3 up{0, 0, 1};
+  ParameterizeOptions parameterize;
+  std::optional<UvDistortion> distortion;
+  double strength = 1;  ///< of the distortion
+};
+
+struct TexturedPatch {
+  Patch patch;                 ///< its mesh has texture coordinates
+  std::uint32_t around = 0;    ///< vertex of the input
+  double strength = 0;         ///< used; at most the one asked for
+  std::size_t n_boundary = 0;  ///< vertices of the boundary, and edges
+  MeshTopology topology;       ///< a disk: Euler number 1
+  UvStretch stretch;           ///< n_flipped is 0
+};
+
+/// Throws InputError(file) when `around` is no corner of a triangle, when the disk cannot get
+/// n_faces triangles, and when a triangle has no positive area in texture space in single precision
+/// (protrusions shrink exponentially with their length).
+TexturedPatch make_textured_patch(const TriMesh& mesh, const TexturedPatchOptions& options,
+                                  const std::string& file);
+
+}  // namespace viewcell
