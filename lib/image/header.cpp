@@ -121,6 +121,22 @@ const char* name_of(ImageFormat format) {
   throw_bug(__FILE__, __LINE__, "unknown image format", static_cast<int>(format));
 }
 
+const char* extension_of(ImageFormat format) {
+  switch (format) {
+    case ImageFormat::png:
+      return ".png";
+    case ImageFormat::jpeg:
+      return ".jpg";
+    case ImageFormat::openexr:
+      return ".exr";
+    case ImageFormat::tiff:
+      return ".tif";
+    case ImageFormat::webp:
+      return ".webp";
+  }
+  throw_bug(__FILE__, __LINE__, "unknown image format", static_cast<int>(format));
+}
+
 void check_image_size(long long width_px, long long height_px, const std::string& file) {
   const auto size = std::to_string(width_px) + " x " + std::to_string(height_px) + " pixels";
   if (width_px < 1 || height_px < 1) throw InputError(file, "header", size);

@@ -15,6 +15,8 @@ inline constexpr long long kMaxImagePixels = 1LL << 28;
 
 /// OpenImageIO's name of the format.
 const char* name_of(ImageFormat format);
+/// As file names have it: ".png", ".jpg", ".exr", ".tif", ".webp".
+const char* extension_of(ImageFormat format);
 
 /// Tells the format, and where the decoder would allocate the picture before it can be asked for
 /// its size (PNG, JPEG, WebP), holds the size in the header against the limits above. A JPEG must

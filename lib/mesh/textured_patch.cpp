@@ -5,6 +5,9 @@
 namespace viewcell {
 namespace {
 
+constexpr int kRelaxSteps = 20;  // they end by themselves before
+constexpr double kSwirlTurns = 1, kStretchExponent = 3;
+
 std::uint32_t choose_start(const TriMesh& mesh, const TexturedPatchOptions& options,
                            const std::string& file) {
   if (!options.around) {
@@ -42,6 +45,28 @@ void check_flipped(const UvStretch& stretch, std::size_t n_faces, const std::str
                          "ask for fewer, for another vertex, or for --relax");
 }
 
+ParameterizeOptions make_parameterize_options(const TexturedPatchOptions& options) {
+  const bool is_uniform = options.distort == UvDistort::uniform;
+  ParameterizeOptions out;
+  out.weights = is_uniform ? UvWeights::uniform : UvWeights::mean_value;
+  out.boundary = options.boundary;
+  out.relax_steps = options.relax_steps.value_or(is_uniform ? 0 : kRelaxSteps);
+  return out;
+}
+
+// Distorts, where it is asked for. Both strengths are 0 elsewhere.
+void distort(const TexturedPatchOptions& options, const std::vector<glm::dvec2>& uv,
+             TexturedPatch& out) {
+  const bool is_swirl = options.distort == UvDistort::swirl;
+  if (!is_swirl && options.distort != UvDistort::stretch) return;
+  out.strength_asked = options.strength.value_or(is_swirl ? kSwirlTurns : kStretchExponent);
+  const DistortedUv distorted =
+      distort_uv(out.patch.mesh, uv, is_swirl ? UvDistortion::swirl : UvDistortion::stretch,
+                 out.strength_asked);
+  set_texcoords(out.patch.mesh, distorted.uv);
+  out.strength = distorted.strength;
+}
+
 }  // namespace
 
 TexturedPatch make_textured_patch(const TriMesh& mesh, const TexturedPatchOptions& options,
@@ -58,14 +83,12 @@ TexturedPatch make_textured_patch(const TriMesh& mesh, const TexturedPatchOption
                  out.topology.euler_characteristic, out.topology.n_components);
   const std::vector<std::uint32_t> loop = find_boundary_loop(disk);
   out.n_boundary = loop.size();
-  std::vector<glm::dvec2> uv = parameterize_disk(disk, loop, options.parameterize);
+  const ParameterizeOptions parameterize = make_parameterize_options(options);
+  out.relax_steps = parameterize.relax_steps;
+  const std::vector<glm::dvec2> uv = parameterize_disk(disk, loop, parameterize);
   set_texcoords(disk, uv);
   check_flipped(measure_uv_stretch(disk), disk.triangles.size(), file, place);
-  if (options.distortion) {
-    DistortedUv distorted = distort_uv(disk, uv, *options.distortion, options.strength);
-    set_texcoords(disk, distorted.uv);
-    out.strength = distorted.strength;
-  }
+  distort(options, uv, out);
   out.stretch = measure_uv_stretch(disk);
   check_flipped(out.stretch, disk.triangles.size(), file, place);
   return out;

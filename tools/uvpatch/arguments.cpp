@@ -1,0 +1,73 @@
+#include "uvpatch/arguments.h"
+
+#include <algorithm>
+
+#include "base/error.h"
+#include "image/header.h"
+
+namespace viewcell {
+namespace {
+
+namespace fs = std::filesystem;
+using Names = std::vector<std::string>;
+
+const Names kUp = {"x", "y", "z", "-x", "-y", "-z"};
+const Names kDistort = {"none", "swirl", "stretch", "uniform"};  // UvDistort's order
+const Names kBoundary = {"circle", "square"};                    // UvBoundary's
+
+int place_of(const std::string& name, const Names& names) {
+  return static_cast<int>(std::find(names.begin(), names.end(), name) - names.begin());
+}
+
+}  // namespace
+
+void declare_arguments(Tool& tool, UvpatchArguments& a) {
+  CLI::App& app = tool.app();
+  const auto choice = [&](const char* flag, std::string& value, const Names& names,
+                          const char* what) {
+    app.add_option(flag, value, what)->capture_default_str()->check(CLI::IsMember(names));
+  };
+  const auto number = [&](const char* flag, int& value, int most, const char* what) {
+    app.add_option(flag, value, what)->capture_default_str()->check(CLI::Range(2, most));
+  };
+  app.add_option("MESH", a.mesh, "PLY, OBJ, OFF, STL, GLB or 3DS")->required();
+  app.add_option("--faces", a.faces, "how many triangles; all: of a component that is a disk")
+      ->required();
+  app.add_option("--around", a.patch.around, "vertex of the file, from 0, to grow around");
+  choice("--up", a.up, kUp, "without --around: the first vertex farthest along this axis");
+  choice("--distort", a.distort, kDistort,
+         "swirl: turned about the middle; stretch: u runs exponentially; uniform: Tutte's weights "
+         "instead of mean values");
+  app.add_option("--strength", a.patch.strength,
+                 "turns of swirl (1) or exponent of stretch (3); less is used where triangles "
+                 "would turn over")
+      ->check(within(-20, 20));
+  choice("--boundary", a.boundary, kBoundary, "what the boundary becomes");
+  app.add_option("--relax", a.patch.relax_steps,
+                 "at most so many steps against stretch (20; uniform: 0)")
+      ->check(CLI::Range(0, 1000));
+  app.add_option("--texture", a.texture, "picture to copy instead of a checker board");
+  number("--texture-size", a.size_px, kMaxImageSidePx, "pixels a side of the checker board");
+  number("--squares", a.n_squares, kMaxImageSidePx, "squares a side of the checker board");
+  tool.add_output("OBJ to write, MTL and picture beside it (-: the OBJ alone)");
+}
+
+void finish_arguments(const fs::path& output, UvpatchArguments& a) {
+  a.patch.n_faces = kAllFaces;
+  if (a.faces != "all" && (!CLI::detail::lexical_cast(a.faces, a.patch.n_faces) ||
+                           a.faces[0] == '-' || a.patch.n_faces == 0))
+    throw UsageError("--faces is neither a number from 1 nor 'all'");
+  const int up = place_of(a.up, kUp);
+  a.patch.up = glm::dvec3(0);
+  a.patch.up[up % 3] = up < 3 ? 1 : -1;
+  a.patch.distort = static_cast<UvDistort>(place_of(a.distort, kDistort));
+  a.patch.boundary = static_cast<UvBoundary>(place_of(a.boundary, kBoundary));
+  if (a.patch.strength && a.distort != "swirl" && a.distort != "stretch")
+    throw UsageError("--strength is for --distort swirl and stretch");
+  if (a.n_squares > a.size_px) throw UsageError("--squares is more than --texture-size");
+  if (output != "-" && output.extension() != ".obj") throw UsageError("-o does not end in .obj");
+  std::error_code ignored;  // it need not exist
+  if (fs::equivalent(a.mesh, output, ignored)) throw UsageError("-o is the mesh that is read");
+}
+
+}  // namespace viewcell
