@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "mesh/parameterize.h"
 #include "mesh/uv_stretch.h"
 
 namespace viewcell {
@@ -13,23 +14,29 @@ constexpr double kTurn = 6.283185307179586;
 constexpr double kLeastShare = 0.01;  // of a triangle's area that must remain
 constexpr int kBisections = 20;
 
-// (1 - r / 0.5)^2 turns of the strength: flat at the rim, so the swirl has no crease there.
+// The functions below are of points in [-1, 1]^2.
+
+// (1 - r)^2 turns of the strength: flat at the rim, so the swirl has no crease there.
 glm::dvec2 swirl(const glm::dvec2& p, double strength) {
-  const glm::dvec2 d = p - 0.5;
-  const double inward = std::max(0.0, 1 - 2 * glm::length(d));
+  const double inward = std::max(0.0, 1 - glm::length(p));
   const double angle = kTurn * strength * inward * inward;
   const double c = std::cos(angle), s = std::sin(angle);
-  return glm::dvec2(c * d.x - s * d.y, s * d.x + c * d.y) + 0.5;
+  return {c * p.x - s * p.y, s * p.x + c * p.y};
 }
 
 glm::dvec2 stretch(const glm::dvec2& p, double strength) {
-  return strength == 0 ? p : glm::dvec2(std::expm1(strength * p.x) / std::expm1(strength), p.y);
+  const double u = (p.x + 1) / 2;
+  return {2 * std::expm1(strength * u) / std::expm1(strength) - 1, p.y};
 }
 
-// By how much areas grow around the point.
-double area_scale(const glm::dvec2& p, UvDistortion distortion, double strength) {
+glm::dvec2 to_unit(const glm::dvec2& uv) {
+  return (uv - 0.5) / (0.5 - kUvMargin);
+}
+
+// By how much areas grow around the point of texture space.
+double area_scale(const glm::dvec2& uv, UvDistortion distortion, double strength) {
   if (distortion == UvDistortion::swirl || strength == 0) return 1;
-  return strength * std::exp(strength * p.x) / std::expm1(strength);
+  return strength * std::exp(strength * (to_unit(uv).x + 1) / 2) / std::expm1(strength);
 }
 
 double float_area(const std::vector<glm::dvec2>& uv, const Triangle& t) {
@@ -50,7 +57,11 @@ bool is_one_to_one(const TriMesh& mesh, const std::vector<glm::dvec2>& before,
 }  // namespace
 
 glm::dvec2 distort_point(const glm::dvec2& p, UvDistortion distortion, double strength) {
-  return distortion == UvDistortion::swirl ? swirl(p, strength) : stretch(p, strength);
+  if (strength == 0) return p;
+  const glm::dvec2 unit = to_unit(p);
+  const glm::dvec2 moved =
+      distortion == UvDistortion::swirl ? swirl(unit, strength) : stretch(unit, strength);
+  return 0.5 + (0.5 - kUvMargin) * moved;
 }
 
 DistortedUv distort_uv(const TriMesh& mesh, const std::vector<glm::dvec2>& uv,

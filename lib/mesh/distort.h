@@ -12,7 +12,8 @@ enum class UvDistortion {
   stretch,  ///< u runs exponentially: e^strength times as fast at the right as at the left
 };
 
-/// Where a point of the unit square goes; into the unit square. Strength 0 is the identity.
+/// Where a point of [kUvMargin, 1 - kUvMargin]^2 goes; into the same square. Strength 0 is the
+/// identity. The rim of the swirl is the circle inscribed in that square.
 glm::dvec2 distort_point(const glm::dvec2& p, UvDistortion distortion, double strength);
 
 struct DistortedUv {
@@ -20,7 +21,7 @@ struct DistortedUv {
   double strength = 0;         ///< used: the one asked for, or less
 };
 
-/// Distorts per-vertex coordinates in the unit square. The map is one to one on points, but not
+/// Distorts per-vertex coordinates in that square. The map is one to one on points, but not
 /// what is linear on triangles between them: if in single precision a triangle turns over or keeps
 /// less than 1/100 of its share of the plane, strength is lowered by bisection until none does. The
 /// triangles must be counter-clockwise to begin with, else BugError. O(40 triangles).

@@ -228,7 +228,7 @@ std::vector<glm::dvec2> parameterize_disk(const TriMesh& mesh,
                                           const ParameterizeOptions& options) {
   std::vector<glm::dvec2> uv =
       solve_interior(mesh, loop, place_boundary(mesh, loop, options.boundary), options);
-  for (glm::dvec2& p : uv) p = 0.5 + (0.5 - options.margin) * p;
+  for (glm::dvec2& p : uv) p = 0.5 + (0.5 - kUvMargin) * p;
   return uv;
 }
 

@@ -12,6 +12,9 @@
 
 namespace viewcell {
 
+/// Of [0, 1], left free on each side.
+inline constexpr double kUvMargin = 0.01;
+
 enum class UvWeights {
   mean_value,  ///< reproduces a planar mesh whose boundary is in place
   uniform,     ///< Tutte's: knows edges only, not shapes
@@ -25,12 +28,11 @@ struct ParameterizeOptions {
   /// Largest number of times that weights are divided by the stretch around the neighbour and the
   /// map is solved anew; ends before as soon as the L2 stretch does not fall. 0: never.
   int relax_steps = 0;
-  double margin = 0.01;  ///< of [0, 1], left free on each side; below 0.5
 };
 
-/// Per vertex, in [margin, 1 - margin]^2, v up; triangles counter-clockwise in the mesh are so in
-/// the plane. loop: find_boundary_loop of a disk, else BugError. The boundary's vertices
-/// are spaced by the length of its edges, but none closer than 1/20 of the mean, so that single
+/// Per vertex, in [kUvMargin, 1 - kUvMargin]^2, v up; triangles counter-clockwise in the mesh are
+/// so in the plane. loop: find_boundary_loop of a disk, else BugError. The boundary's vertices are
+/// spaced by the length of its edges, but none closer than 1/20 of the mean, so that single
 /// precision tells them apart. `square` bulges its sides by 2 %, since three boundary vertices of
 /// one triangle may not stand on one line. Nothing is promised in floats: measure_uv_stretch counts
 /// what is flipped. One sparse factorisation for each solution; the same bytes each time.

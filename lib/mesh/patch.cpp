@@ -251,16 +251,17 @@ bool is_patch_start(const TriMesh& mesh, std::uint32_t vertex) {
   return vertex < mesh.positions.size() && find_starts(mesh, match_positions(mesh))[vertex];
 }
 
-std::uint32_t find_top_vertex(const TriMesh& mesh, const glm::dvec3& up) {
+std::optional<std::uint32_t> find_top_vertex(const TriMesh& mesh, const glm::dvec3& up) {
   const std::vector<bool> is_start = find_starts(mesh, match_positions(mesh));
-  std::size_t top = mesh.positions.size();
-  for (std::size_t v = 0; v < mesh.positions.size(); ++v)
-    if (is_start[v] &&
-        (top == mesh.positions.size() || glm::dot(up, glm::dvec3(mesh.positions[v])) >
-                                             glm::dot(up, glm::dvec3(mesh.positions[top]))))
-      top = v;
-  VIEWCELL_CHECK(top < mesh.positions.size(), "no triangle has three positions");
-  return static_cast<std::uint32_t>(top);
+  std::optional<std::uint32_t> top;
+  double highest = -kInfinity;
+  for (std::uint32_t v = 0; v < mesh.positions.size(); ++v) {
+    const double height = glm::dot(up, glm::dvec3(mesh.positions[v]));
+    if (!is_start[v] || !(height > highest)) continue;
+    top = v;
+    highest = height;
+  }
+  return top;
 }
 
 Patch cut_patch(const TriMesh& input, std::uint32_t around, std::size_t n_faces) {

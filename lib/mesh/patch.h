@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "mesh/mesh.h"
@@ -22,21 +23,23 @@ struct Patch {
 /// Grows a disk of n_faces triangles around a vertex, in the order of their distance from it, which
 /// is measured along edges; ties by triangle number. Vertices at equal positions count as one, and
 /// triangles of fewer than three positions as none. What the disk would enclose (an ear, as it
-/// closes behind it) is taken in before it goes on, ends of the surface excepted.
+/// closes behind it) is taken in before it goes on; not so what has an end of the surface in it, or
+/// the farthest triangle of all.
 ///
-/// After each triangle the patch is a disk: a triangle that would pinch it, close a ring or a
-/// sphere, or be a third on an edge waits or stays out. Across an edge of three or more triangles
-/// it goes on into the first that turns the same way. When no more can be joined the patch has
-/// fewer triangles. The first triangle is always joined; `around` must be a corner of a triangle of
-/// three positions (find_top_vertex; is_patch_start), else BugError. O(n log n) of the whole mesh.
+/// After each triangle the patch is a disk: one that would pinch it, close a ring or a sphere, or
+/// be a third on an edge or turned the other way waits or stays out. So past a handle, a hole of
+/// the surface or an edge of three triangles a slit is left open, to the patch's boundary. When no
+/// more can be joined the patch has fewer triangles.
+///
+/// `around` must be a start (is_patch_start), else BugError. O(n log n) of the whole mesh.
 Patch cut_patch(const TriMesh& mesh, std::uint32_t around, std::size_t n_faces);
 
 /// True when a patch can start at the vertex.
 bool is_patch_start(const TriMesh& mesh, std::uint32_t vertex);
 
 /// The vertex, of those that a patch can start at, farthest along a direction; the first of
-/// several. BugError when there is none.
-std::uint32_t find_top_vertex(const TriMesh& mesh, const glm::dvec3& up);
+/// several. None when a patch can start nowhere.
+std::optional<std::uint32_t> find_top_vertex(const TriMesh& mesh, const glm::dvec3& up);
 
 /// The vertices of the boundary, the surface on the left, from the lowest number on. BugError when
 /// the mesh's boundary is not one simple loop; vertices of equal positions are not one here.

@@ -11,9 +11,9 @@ constexpr double kSwirlTurns = 1, kStretchExponent = 3;
 std::uint32_t choose_start(const TriMesh& mesh, const TexturedPatchOptions& options,
                            const std::string& file) {
   if (!options.around) {
-    if (measure_topology(mesh).n_edges == 0)
-      throw InputError(file, "", "has no triangle of three vertices");
-    return find_top_vertex(mesh, options.up);
+    const std::optional<std::uint32_t> top = find_top_vertex(mesh, options.up);
+    if (!top) throw InputError(file, "", "has no triangle of three positions");
+    return *top;
   }
   const std::uint32_t around = *options.around;
   if (around >= mesh.positions.size())
