@@ -29,6 +29,8 @@ void write_textured_obj(const fs::path& obj, const TriMesh& mesh,
   const std::string name = obj.stem().string();
   const fs::path mtl = fs::path(obj).replace_extension(".mtl");
   const fs::path picture = fs::path(obj).replace_extension(picture_extension);
+  if (obj.has_parent_path() && !fs::is_directory(obj.parent_path()))
+    throw MachineError(obj.string() + ": cannot create: there is no such folder");
   for (const fs::path& file : {picture, mtl, obj}) check_can_be_replaced(file);
   PendingFile new_picture(picture), new_mtl(mtl), new_obj(obj);
   write_picture(new_picture.temporary());

@@ -1,6 +1,7 @@
 #include "uvpatch/arguments.h"
 
 #include <algorithm>
+#include <charconv>
 
 #include "base/error.h"
 #include "image/header.h"
@@ -17,6 +18,16 @@ const Names kBoundary = {"circle", "square"};                    // UvBoundary's
 
 int place_of(const std::string& name, const Names& names) {
   return static_cast<int>(std::find(names.begin(), names.end(), name) - names.begin());
+}
+
+std::size_t parse_faces(const std::string& text) {
+  if (text == "all") return kAllFaces;
+  std::size_t n = 0;
+  const char* end = text.data() + text.size();
+  if (std::from_chars(text.data(), end, n) != std::from_chars_result{end, std::errc()} || n == 0 ||
+      n == kAllFaces)
+    throw UsageError("--faces is neither a number from 1 nor 'all'");
+  return n;
 }
 
 }  // namespace
@@ -53,10 +64,7 @@ void declare_arguments(Tool& tool, UvpatchArguments& a) {
 }
 
 void finish_arguments(const fs::path& output, UvpatchArguments& a) {
-  a.patch.n_faces = kAllFaces;
-  if (a.faces != "all" && (!CLI::detail::lexical_cast(a.faces, a.patch.n_faces) ||
-                           a.faces[0] == '-' || a.patch.n_faces == 0))
-    throw UsageError("--faces is neither a number from 1 nor 'all'");
+  a.patch.n_faces = parse_faces(a.faces);
   const int up = place_of(a.up, kUp);
   a.patch.up = glm::dvec3(0);
   a.patch.up[up % 3] = up < 3 ? 1 : -1;
