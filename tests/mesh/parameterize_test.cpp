@@ -214,6 +214,11 @@ TEST(UvStretch, ByHand) {
   EXPECT_NEAR(stretch.l2, std::sqrt((4 + 0.25) / 2), 1e-6);
   EXPECT_NEAR(stretch.max, 2, 1e-6);
   EXPECT_EQ(stretch.n_flipped, 0u);
+  // Sheared by one: the golden ratio.
+  set_texcoords(mesh, {{0, 0}, {1, 0}, {1, 1}, {2, 1}});
+  stretch = measure_uv_stretch(mesh);
+  EXPECT_NEAR(stretch.l2, std::sqrt(1.5), 1e-6);
+  EXPECT_NEAR(stretch.max, (1 + std::sqrt(5)) / 2, 1e-6);
   std::swap(mesh.texcoords[0], mesh.texcoords[1]);
   EXPECT_EQ(measure_uv_stretch(mesh).n_flipped, 1u);
   mesh.texcoords.assign(6, glm::vec2(0.5));
@@ -231,6 +236,7 @@ TEST(Distort, Points) {
   EXPECT_LT(glm::distance(swirl({half, 0.5}, 4), {half, 0.5}), 1e-12);
   EXPECT_LT(glm::distance(swirl({half, 0.5}, 1), {0.5, half}), 1e-12);
   EXPECT_LT(glm::distance(swirl({half, 0.5}, -1), {0.5, 1 - half}), 1e-12);
+  EXPECT_LT(glm::distance(swirl({0.5, half}, 1), {1 - half, 0.5}), 1e-12);
   EXPECT_LT(glm::distance(swirl({rim, 0.5}, 1), {rim, 0.5}), 1e-12);
   EXPECT_LT(glm::distance(swirl({rim, rim}, 1), {rim, rim}), 1e-12);
   const auto stretch = [](glm::dvec2 p) { return distort_point(p, UvDistortion::stretch, 3); };
