@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <tuple>
 
 #include "base/error.h"
 #include "mesh/edges.h"
@@ -19,6 +20,7 @@ namespace {
 constexpr double kTurn = 6.283185307179586;
 constexpr double kBulge = 0.02;       // of a square's half side
 constexpr double kLeastShare = 0.05;  // of the mean boundary edge
+constexpr double kMostRatio = 1e6;    // of stretch in one step
 constexpr double kLeastTan = 1e-4;    // of half an angle; the most is its inverse
 
 // ---- boundary ----
@@ -112,8 +114,9 @@ class Solver {
       if (row_[v] != kFixed) row_[v] = n_rows_++;
   }
 
-  void solve(const std::vector<Weight>& weights, std::vector<glm::dvec2>& uv) {
-    if (n_rows_ == 0) return;
+  /// False when the weights differ by more than doubles can tell.
+  bool solve(const std::vector<Weight>& weights, std::vector<glm::dvec2>& uv) {
+    if (n_rows_ == 0) return true;
     std::vector<double> sums(row_.size(), 0.0);
     for (const Weight& w : weights) sums[w.of] += w.value;
     std::vector<Eigen::Triplet<double>> entries;
@@ -128,21 +131,21 @@ class Solver {
         right.row(i) += share * Eigen::RowVector2d(uv[w.neighbour].x, uv[w.neighbour].y);
     }
     for (int i = 0; i < n_rows_; ++i) entries.emplace_back(i, i, 1.0);
-    const Eigen::MatrixX2d solution = factorise(entries).solve(right);
+    if (!factorise(entries)) return false;
+    const Eigen::MatrixX2d solution = lu_.solve(right);
     for (std::size_t v = 0; v < row_.size(); ++v)
       if (row_[v] != kFixed) uv[v] = {solution(row_[v], 0), solution(row_[v], 1)};
+    return true;
   }
 
  private:
   static constexpr int kFixed = -1;
 
-  Eigen::SparseLU<Eigen::SparseMatrix<double>>& factorise(
-      const std::vector<Eigen::Triplet<double>>& entries) {
+  bool factorise(const std::vector<Eigen::Triplet<double>>& entries) {
     Eigen::SparseMatrix<double> matrix(n_rows_, n_rows_);
     matrix.setFromTriplets(entries.begin(), entries.end());
     lu_.compute(matrix);
-    VIEWCELL_CHECK(lu_.info() == Eigen::Success, "factorising", n_rows_, lu_.lastErrorMessage());
-    return lu_;
+    return lu_.info() == Eigen::Success;
   }
 
   std::vector<int> row_;  // per vertex: its row, or kFixed
@@ -152,17 +155,29 @@ class Solver {
 
 // ---- relaxing ----
 
-struct VertexStretch {
-  std::vector<double> around;  // per vertex: L2 over its triangles
-  double l2 = 0;               // over the mesh, up to a factor that the boundary fixes
+struct Quality {
+  std::size_t n_flipped = 0;
+  double l2 = 0;               // stretch over the mesh, up to a factor that the boundary fixes
+  std::vector<double> around;  // per vertex: L2 stretch over its triangles; finite
+
+  bool is_better_than(const Quality& other) const {
+    return std::tie(n_flipped, l2) < std::tie(other.n_flipped, other.l2);
+  }
 };
 
-VertexStretch measure_vertex_stretch(const TriMesh& mesh, const std::vector<glm::dvec2>& uv) {
-  VertexStretch out;
+// What has no area in the plane has infinite stretch; it counts as kMostRatio times the least.
+void bound(std::vector<double>& stretch) {
+  const double least = *std::min_element(stretch.begin(), stretch.end());
+  for (double& s : stretch) s = std::min(s, kMostRatio * least);
+}
+
+Quality measure_quality(const TriMesh& mesh, const std::vector<glm::dvec2>& uv) {
+  Quality out;
   out.around.assign(mesh.positions.size(), 0);
   std::vector<double> areas(mesh.positions.size(), 0);
   double sum = 0, area = 0;
   for (const Triangle& t : mesh.triangles) {
+    out.n_flipped += !(twice_area(uv[t[0]], uv[t[1]], uv[t[2]]) > 0);
     const double here = glm::length(area_normal(mesh, t));
     if (!(here > 0)) continue;
     std::array<glm::dvec3, 3> at;
@@ -173,28 +188,31 @@ VertexStretch measure_vertex_stretch(const TriMesh& mesh, const std::vector<glm:
     area += here;
     for (const std::uint32_t v : t) out.around[v] += here * l2 * l2, areas[v] += here;
   }
-  for (std::size_t v = 0; v < areas.size(); ++v)
-    out.around[v] = areas[v] > 0 ? std::sqrt(out.around[v] / areas[v]) : 1;
   out.l2 = area > 0 ? std::sqrt(sum / area) : 0;
+  for (std::size_t v = 0; v < areas.size(); ++v)
+    out.around[v] = areas[v] > 0 ? std::sqrt(out.around[v] / areas[v]) : out.l2;
+  bound(out.around);
   return out;
 }
 
-bool has_flipped(const TriMesh& mesh, const std::vector<glm::dvec2>& uv) {
-  return std::any_of(mesh.triangles.begin(), mesh.triangles.end(), [&](const Triangle& t) {
-    return !(twice_area(uv[t[0]], uv[t[1]], uv[t[2]]) > 0);
-  });
+// Divides by the stretch around the neighbour; each vertex' weights are scaled to the sum 1.
+void weaken(const std::vector<double>& stretch, std::vector<Weight>& weights) {
+  std::vector<double> sums(stretch.size(), 0);
+  for (Weight& w : weights) sums[w.of] += w.value /= stretch[w.neighbour];
+  for (Weight& w : weights) w.value /= sums[w.of];
 }
 
 void relax(const TriMesh& mesh, Solver& solver, std::vector<Weight>& weights, int n_steps,
            std::vector<glm::dvec2>& uv) {
-  VertexStretch stretch = measure_vertex_stretch(mesh, uv);
-  for (int step = 0; step < n_steps; ++step) {
-    for (Weight& w : weights) w.value /= stretch.around[w.neighbour];
+  Quality quality = measure_quality(mesh, uv);
+  for (int step = 0; step < n_steps && quality.l2 > 0; ++step) {
+    weaken(quality.around, weights);
     std::vector<glm::dvec2> next = uv;
-    solver.solve(weights, next);
-    stretch = measure_vertex_stretch(mesh, next);
-    if (!(stretch.l2 < measure_vertex_stretch(mesh, uv).l2) || has_flipped(mesh, next)) return;
+    if (!solver.solve(weights, next)) return;
+    Quality next_quality = measure_quality(mesh, next);
+    if (!next_quality.is_better_than(quality)) return;
     uv = std::move(next);
+    quality = std::move(next_quality);
   }
 }
 
@@ -218,7 +236,8 @@ std::vector<glm::dvec2> solve_interior(const TriMesh& mesh, const std::vector<st
                                     ? make_uniform_weights(mesh)
                                     : make_mean_value_weights(mesh);
   Solver solver(mesh.positions.size(), loop);
-  solver.solve(weights, uv);
+  const bool is_solved = solver.solve(weights, uv);
+  VIEWCELL_CHECK(is_solved, "weights without a solution, of vertices:", mesh.positions.size());
   relax(mesh, solver, weights, options.relax_steps, uv);
   return uv;
 }

@@ -42,7 +42,7 @@ void check_flipped(const UvStretch& stretch, std::size_t n_faces, const std::str
     throw InputError(file, place,
                      std::to_string(stretch.n_flipped) + " of " + std::to_string(n_faces) +
                          " triangles have no positive area in texture space in single precision: "
-                         "ask for fewer, for another vertex, or for --relax");
+                         "ask for fewer, for another vertex, or for a higher --relax");
 }
 
 ParameterizeOptions make_parameterize_options(const TexturedPatchOptions& options) {

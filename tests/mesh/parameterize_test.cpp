@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/error.h"
@@ -144,6 +145,20 @@ TEST(TexturedPatch, IsOneToOne) {
   }
 }
 
+// All vertices on one line: edges say what is next to what, shapes say nothing.
+TEST(TexturedPatch, TrianglesWithoutArea) {
+  TriMesh line = make_grid(6);
+  for (std::uint32_t v = 0; v < line.positions.size(); ++v)
+    line.positions[v] = glm::vec3(v * v, 0, 0);
+  for (const UvDistort distort : {UvDistort::none, UvDistort::swirl, UvDistort::uniform}) {
+    TexturedPatchOptions options;
+    options.distort = distort;
+    const TexturedPatch patch = make_textured_patch(line, options, "line");
+    EXPECT_EQ(patch.patch.mesh.triangles, line.triangles);
+    EXPECT_EQ(patch.stretch.n_flipped, 0u);
+  }
+}
+
 TEST(TexturedPatch, RelaxingLowersStretch) {
   const TriMesh ball = make_ball(20);
   TexturedPatchOptions options;
@@ -200,6 +215,26 @@ TEST(TexturedPatch, CountsWhatFloatsCannotTellApart) {
   EXPECT_INPUT_ERROR(make_textured_patch(spindle, options, "spindle"), "no positive area");
   options.relax_steps = 20;
   EXPECT_EQ(make_textured_patch(spindle, options, "spindle").stretch.n_flipped, 0u);
+}
+
+// As long as a hundred thousand: there even doubles cannot tell apart, and stretch is infinite.
+TEST(TexturedPatch, RelaxesFromInfiniteStretch) {
+  TriMesh spindle = make_ball(40);
+  for (glm::vec3& p : spindle.positions) p.z *= 50000;
+  const std::uint32_t n_rings = 40;
+  spindle.triangles.resize(spindle.triangles.size() - 2 * n_rings);  // open below
+  const std::vector<std::uint32_t> loop = find_boundary_loop(spindle);
+  const auto count_flipped = [&](int relax_steps) {
+    ParameterizeOptions options;
+    options.relax_steps = relax_steps;
+    const std::vector<glm::dvec2> uv = parameterize_disk(spindle, loop, options);
+    return std::count_if(
+        spindle.triangles.begin(), spindle.triangles.end(),
+        [&](const Triangle& t) { return !(twice_area(uv[t[0]], uv[t[1]], uv[t[2]]) > 0); });
+  };
+  const auto n_before = count_flipped(0);
+  EXPECT_GT(n_before, 10);
+  EXPECT_LT(count_flipped(20), n_before);
 }
 
 // A square of side 1 seen at twice its width and half its height.
