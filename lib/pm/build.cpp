@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "base/error.h"
+#include "pm/recorder.h"
 #include "pm/wedge_mesh.h"
 
 namespace viewcell {
@@ -34,129 +35,6 @@ float unit_scale(const std::vector<glm::vec3>& positions) {
   const double longest = std::max({size.x, size.y, size.z});
   if (!(longest > 0)) return 1;
   return std::ldexp(1.0f, -std::clamp(std::ilogb(longest), -126, 126));
-}
-
-// A collapse as it was made; its lists lie in the recorder's arrays, in the same order.
-struct Made {
-  VertexSplit split;
-  std::size_t first_born, first_moved, first_pair;
-};
-
-// What the loop did, to be turned around.
-class Recorder {
- public:
-  // positions: scaled, and moved by the metric. input: as they were in the file.
-  Recorder(const WedgeMesh& mesh, const std::vector<glm::vec3>& positions,
-           const std::vector<glm::vec3>& input, float scale, bool is_full)
-      : positions_(positions),
-        input_(input),
-        scale_(scale),
-        has_moved_(is_full ? input.size() : 0, false),
-        texcoords_(mesh.texcoords),
-        table_(mesh),
-        is_full_(is_full) {}
-
-  bool match(const CollapseMesh& mesh, std::uint32_t u, std::uint32_t v) {
-    return table_.match(mesh, u, v, is_full_);
-  }
-  // Before the parent moves.
-  void traced(std::uint32_t, std::uint32_t v, const CollapseTrace& trace) {
-    moved_from_.clear();
-    for (const std::uint32_t c : trace.moved) moved_from_.push_back(table_.at(c));
-    table_.apply(trace);
-    matched_ = table_.pairs();
-    if (is_full_) parent_positions_.push_back(positions_[v]);
-  }
-  // A position in the input's units, to the bit where it is the input's.
-  glm::vec3 unscaled(std::uint32_t v, const glm::vec3& p) const {
-    return has_moved_[v] ? p / scale_ : input_[v];
-  }
-  // After it.
-  void made(std::uint32_t u, std::uint32_t v, float cost, float error, const CollapseTrace& trace) {
-    const auto& pairs = matched_;
-    made_.push_back({{u, v, size32(trace.died), size32(trace.moved), size32(pairs), cost, error},
-                     born_.size(),
-                     moved_.size(),
-                     pairs_.size()});
-    born_.insert(born_.end(), trace.died.begin(), trace.died.end());
-    moved_.insert(moved_.end(), trace.moved.begin(), trace.moved.end());
-    for (const std::uint32_t wedge : moved_from_) moved_by_.push_back(place_of(wedge));
-    for (const auto& [from, to] : pairs) pairs_.push_back({from, to});
-    if (is_full_) {
-      parent_positions_.back() = unscaled(v, parent_positions_.back());
-      has_moved_[v] = true;
-    }
-    if (is_full_ && !texcoords_.empty()) move_texcoords(u, v);
-  }
-
-  void finish(ProgressiveRecord& record);
-  WedgeTable& table() { return table_; }
-  const std::vector<glm::vec2>& texcoords() const { return texcoords_; }
-
- private:
-  template <typename T>
-  static std::uint32_t size32(const std::vector<T>& values) {
-    return static_cast<std::uint32_t>(values.size());
-  }
-  std::uint8_t place_of(std::uint32_t wedge) const {
-    const auto& pairs = matched_;
-    const auto found = std::find_if(pairs.begin(), pairs.end(),
-                                    [&](const auto& pair) { return pair.from == wedge; });
-    const auto place = found - pairs.begin();
-    VIEWCELL_CHECK(place < 256, place);
-    return static_cast<std::uint8_t>(place);
-  }
-  // The parent's texture coordinates go as far towards the child's as its position did.
-  void move_texcoords(std::uint32_t u, std::uint32_t v) {
-    const glm::dvec3 from(parent_positions_.back() * scale_);
-    const glm::dvec3 edge = glm::dvec3(positions_[u]) - from;
-    const double length2 = glm::dot(edge, edge);
-    const double along = glm::dot(glm::dvec3(positions_[v]) - from, edge);
-    const double t = length2 > 0 ? std::clamp(along / length2, 0.0, 1.0) : 0.0;
-    for (const auto& [child, parent] : matched_) {
-      parent_texcoords_.push_back(texcoords_[parent]);
-      texcoords_[parent] =
-          glm::vec2(glm::mix(glm::dvec2(texcoords_[parent]), glm::dvec2(texcoords_[child]), t));
-    }
-  }
-
-  const std::vector<glm::vec3>& positions_;
-  const std::vector<glm::vec3>& input_;
-  float scale_;
-  std::vector<bool> has_moved_;
-  std::vector<glm::vec2> texcoords_;
-  WedgeTable table_;
-  bool is_full_;
-  std::vector<WedgeTable::Pair> matched_;  // of the last collapse
-  std::vector<std::uint32_t> moved_from_;  // wedges of the last collapse's moved corners
-  std::vector<Made> made_;
-  std::vector<std::uint32_t> born_, moved_;
-  std::vector<std::uint8_t> moved_by_;
-  std::vector<ProgressiveRecord::WedgePair> pairs_;
-  std::vector<glm::vec3> parent_positions_;
-  std::vector<glm::vec2> parent_texcoords_;
-};
-
-template <typename T>
-void append(std::vector<T>& to, const std::vector<T>& from, std::size_t first, std::size_t n) {
-  const auto at = from.begin() + static_cast<std::ptrdiff_t>(first);
-  to.insert(to.end(), at, at + static_cast<std::ptrdiff_t>(n));
-}
-
-// The collapses backwards are the splits.
-void Recorder::finish(ProgressiveRecord& r) {
-  r.texcoords = std::move(texcoords_);
-  for (std::size_t i = made_.size(); i-- > 0;) {
-    const Made& made = made_[i];
-    r.splits.push_back(made.split);
-    append(r.born, born_, made.first_born, made.split.n_born);
-    append(r.moved, moved_, made.first_moved, made.split.n_moved);
-    append(r.moved_by, moved_by_, made.first_moved, made.split.n_moved);
-    append(r.pairs, pairs_, made.first_pair, made.split.n_pairs);
-    if (!parent_texcoords_.empty())
-      append(r.parent_texcoords, parent_texcoords_, made.first_pair, made.split.n_pairs);
-    if (is_full_) r.parent_positions.push_back(parent_positions_[i]);
-  }
 }
 
 // The metric asked for, held to the boundaries of texture charts, with every collapse recorded.
@@ -295,38 +173,15 @@ bool needs_texture(MetricKind metric) {
 BuildResult build_progressive_mesh(const TriMesh& mesh, const BuildOptions& options,
                                    const Progress& progress) {
   check_options(mesh, options);
-  WedgeMesh wedges = make_wedges(mesh);
+  WedgeMesh wedges = make_wedges(mesh, true);
   const float scale = unit_scale(wedges.positions);
   for (glm::vec3& p : wedges.positions) p *= scale;
   const std::vector<Triangle> triangles = wedges.vertex_triangles();
   CollapseMesh work(wedges.positions, triangles);
-  const bool is_full = options.placement == Placement::full;
-  Recorder recorder(wedges, wedges.positions, mesh.positions, scale, is_full);
+  Recorder recorder(wedges, mesh, scale, options.placement == Placement::full);
   BuildResult result;
   result.counts = run_metric(work, wedges, triangles, recorder, scale, options, progress);
-
-  ProgressiveRecord& r = result.record;
-  r.attributes = mesh;
-  r.attributes.triangles.clear();
-  r.attributes.texcoords.clear();
-  if (is_full)
-    for (std::uint32_t v = 0; v < wedges.positions.size(); ++v)
-      r.attributes.positions[v] = recorder.unscaled(v, wedges.positions[v]);
-  if (!mesh.materials.empty()) {
-    r.attributes.materials.clear();
-    for (const std::uint32_t t : wedges.face_source)
-      r.attributes.materials.push_back(mesh.materials[t]);
-  }
-  r.vertex_of.assign(
-      wedges.wedge_vertex.begin(),
-      wedges.wedge_vertex.begin() + static_cast<std::ptrdiff_t>(mesh.positions.size()));
-  r.extra_sources.assign(
-      wedges.wedge_source.begin() + static_cast<std::ptrdiff_t>(mesh.positions.size()),
-      wedges.wedge_source.end());
-  for (std::uint32_t c = 0; c < 3 * wedges.faces.size(); c += 3)
-    r.faces.push_back(
-        {recorder.table().at(c), recorder.table().at(c + 1), recorder.table().at(c + 2)});
-  recorder.finish(r);
+  result.record = recorder.finish();
   result.n_welded = wedges.n_welded;
   result.n_dropped = wedges.n_dropped;
   return result;

@@ -14,9 +14,8 @@ const char* refusal_name(Refusal refusal) {
 CollapseMesh::CollapseMesh(std::span<const glm::vec3> positions,
                            std::span<const Triangle> triangles)
     : positions_(positions),
-      corners_(3 * triangles.size(), kEnd),
+      corners_(3 * triangles.size(), {kEnd, kEnd}),
       alive_(triangles.size(), false),
-      next_(3 * triangles.size(), kEnd),
       head_(positions.size(), kEnd),
       mark_(positions.size(), 0) {
   for (std::size_t t = triangles.size(); t-- > 0;) {  // backwards: lists end up in input order
@@ -27,8 +26,7 @@ CollapseMesh::CollapseMesh(std::span<const glm::vec3> positions,
     alive_[t] = true;
     for (std::uint32_t k = 0; k < 3; ++k) {
       const auto c = static_cast<std::uint32_t>(3 * t + k);
-      corners_[c] = triangle[k];
-      next_[c] = head_[triangle[k]];
+      corners_[c] = {triangle[k], head_[triangle[k]]};
       head_[triangle[k]] = c;
     }
   }
@@ -130,29 +128,29 @@ Refusal CollapseMesh::check_move(std::uint32_t from, std::uint32_t other, const 
 
 void CollapseMesh::unlink(std::uint32_t v, std::uint32_t corner) {
   std::uint32_t* link = &head_[v];
-  while (*link != corner) link = &next_[*link];
-  *link = next_[corner];
+  while (*link != corner) link = &corners_[*link].next;
+  *link = corners_[corner].next;
 }
 
 void CollapseMesh::collapse(std::uint32_t u, std::uint32_t v, CollapseTrace* trace) {
   if (trace) trace->died.clear(), trace->moved.clear();
   std::uint32_t last = kEnd;  // the last corner of u that lives on
   for (std::uint32_t c = head_[u]; c != kEnd;) {
-    const std::uint32_t after = next_[c], t = c / 3;
-    if (corners_[3 * t] == v || corners_[3 * t + 1] == v || corners_[3 * t + 2] == v) {
-      for (std::uint32_t k = 0; k < 3; ++k) unlink(corners_[3 * t + k], 3 * t + k);
+    const std::uint32_t after = corners_[c].next, t = c / 3;
+    if (vertex_at(3 * t) == v || vertex_at(3 * t + 1) == v || vertex_at(3 * t + 2) == v) {
+      for (std::uint32_t k = 0; k < 3; ++k) unlink(vertex_at(3 * t + k), 3 * t + k);
       alive_[t] = false;
       --n_triangles_;
       if (trace) trace->died.push_back(t);
     } else {
-      corners_[c] = v;
+      corners_[c].vertex = v;
       last = c;
       if (trace) trace->moved.push_back(c);
     }
     c = after;
   }
   if (last != kEnd) {
-    next_[last] = head_[v];
+    corners_[last].next = head_[v];
     head_[v] = head_[u];
   }
   head_[u] = kEnd;
@@ -162,7 +160,7 @@ std::vector<Triangle> CollapseMesh::triangles() const {
   std::vector<Triangle> out;
   out.reserve(n_triangles_);
   for (std::size_t t = 0; t < alive_.size(); ++t)
-    if (alive_[t]) out.push_back({corners_[3 * t], corners_[3 * t + 1], corners_[3 * t + 2]});
+    if (alive_[t]) out.push_back({vertex_at(3 * t), vertex_at(3 * t + 1), vertex_at(3 * t + 2)});
   return out;
 }
 

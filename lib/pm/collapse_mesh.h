@@ -44,25 +44,26 @@ class CollapseMesh {
   const glm::vec3& position(std::uint32_t v) const { return positions_[v]; }
   bool has_triangles(std::uint32_t v) const { return head_[v] != kEnd; }
   /// The vertex at a corner of a live triangle, or of one that died, when it did.
-  std::uint32_t vertex_at(std::uint32_t corner) const { return corners_[corner]; }
+  std::uint32_t vertex_at(std::uint32_t corner) const { return corners_[corner].vertex; }
   bool is_alive(std::uint32_t triangle) const { return alive_[triangle]; }
 
   /// Calls visit(a, b) for every triangle (v, a, b) of v, in that winding.
   template <typename Visit>
   void for_each_triangle(std::uint32_t v, Visit&& visit) const {
-    for (std::uint32_t c = head_[v]; c != kEnd; c = next_[c]) {
+    for (std::uint32_t c = head_[v]; c != kEnd; c = corners_[c].next) {
       const std::uint32_t t = c / 3, k = c % 3;
-      visit(corners_[3 * t + (k + 1) % 3], corners_[3 * t + (k + 2) % 3]);
+      visit(corners_[3 * t + (k + 1) % 3].vertex, corners_[3 * t + (k + 2) % 3].vertex);
     }
   }
 
   /// Calls visit(corner) for every corner of v.
   template <typename Visit>
   void for_each_corner(std::uint32_t v, Visit&& visit) const {
-    for (std::uint32_t c = head_[v]; c != kEnd; c = next_[c]) visit(c);
+    for (std::uint32_t c = head_[v]; c != kEnd; c = corners_[c].next) visit(c);
   }
 
   /// The vertices joined to v by an edge, each once, in an order that depends on the history only.
+  ///
   void ring(std::uint32_t v, std::vector<std::uint32_t>& out) const;
 
   /// Whether the half-edge collapse u -> v keeps the surface's topology (the link condition),
@@ -92,11 +93,14 @@ class CollapseMesh {
                      float min_cosine) const;
 
   std::span<const glm::vec3> positions_;
-  std::vector<std::uint32_t> corners_;  // 3 a triangle
-  std::vector<bool> alive_;             // by triangle
-  std::vector<std::uint32_t> next_;     // corner -> next corner of the same vertex
-  std::vector<std::uint32_t> head_;     // vertex -> its first corner
-  std::vector<std::uint32_t> mark_;     // vertex -> scratch, compared with stamp_
+  struct Corner {
+    std::uint32_t vertex;
+    std::uint32_t next;  // corner of the same vertex
+  };
+  std::vector<Corner> corners_;      // 3 a triangle
+  std::vector<bool> alive_;          // by triangle
+  std::vector<std::uint32_t> head_;  // vertex -> its first corner
+  std::vector<std::uint32_t> mark_;  // vertex -> scratch, compared with stamp_
   std::uint32_t stamp_ = 0;
   std::size_t n_triangles_ = 0;
 };

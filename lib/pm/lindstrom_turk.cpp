@@ -3,51 +3,53 @@
 #include <algorithm>
 #include <cmath>
 
-#include "pm/quadric.h"
-
 namespace viewcell {
-namespace {
 
-// A x x + 2 b x + c with symmetric A.
-struct Quadratic {
-  Symmetric3 a{};
-  glm::dvec3 b{0};
-  double c = 0;
+void LindstromTurkMetric::Quadratic::add(const Quadratic& q, double weight) {
+  for (std::size_t i = 0; i < 6; ++i) a[i] += weight * q.a[i];
+  b += weight * q.b;
+  c += weight * q.c;
+}
 
-  void add(const Quadratic& q, double weight) {
-    for (std::size_t i = 0; i < 6; ++i) a[i] += weight * q.a[i];
-    b += weight * q.b;
-    c += weight * q.c;
-  }
-  void add_square(const glm::dvec3& n, double d) {  // (n x - d)^2
-    a[0] += n.x * n.x, a[1] += n.y * n.y, a[2] += n.z * n.z;
-    a[3] += n.x * n.y, a[4] += n.x * n.z, a[5] += n.y * n.z;
-    b -= d * n;
-    c += d * d;
-  }
-  // |e2 - x cross e1|^2
-  void add_cross(const glm::dvec3& e1, const glm::dvec3& e2) {
-    const double l = glm::dot(e1, e1);
-    a[0] += l - e1.x * e1.x, a[1] += l - e1.y * e1.y, a[2] += l - e1.z * e1.z;
-    a[3] -= e1.x * e1.y, a[4] -= e1.x * e1.z, a[5] -= e1.y * e1.z;
-    b -= glm::cross(e1, e2);
-    c += glm::dot(e2, e2);
-  }
-  glm::dvec3 times(const glm::dvec3& x) const {
-    return {a[0] * x.x + a[3] * x.y + a[4] * x.z, a[3] * x.x + a[1] * x.y + a[5] * x.z,
-            a[4] * x.x + a[5] * x.y + a[2] * x.z};
-  }
-  double value(const glm::dvec3& x) const { return glm::dot(x, times(x)) + 2 * glm::dot(b, x) + c; }
-};
+void LindstromTurkMetric::Quadratic::add_square(const glm::dvec3& n, double d) {
+  a[0] += n.x * n.x, a[1] += n.y * n.y, a[2] += n.z * n.z;
+  a[3] += n.x * n.y, a[4] += n.x * n.z, a[5] += n.y * n.z;
+  b -= d * n;
+  c += d * d;
+}
+
+void LindstromTurkMetric::Quadratic::add_cross(const glm::dvec3& e1, const glm::dvec3& e2) {
+  const double l = glm::dot(e1, e1);
+  a[0] += l - e1.x * e1.x, a[1] += l - e1.y * e1.y, a[2] += l - e1.z * e1.z;
+  a[3] -= e1.x * e1.y, a[4] -= e1.x * e1.z, a[5] -= e1.y * e1.z;
+  b -= glm::cross(e1, e2);
+  c += glm::dot(e2, e2);
+}
+
+glm::dvec3 LindstromTurkMetric::Quadratic::times(const glm::dvec3& x) const {
+  return {a[0] * x.x + a[3] * x.y + a[4] * x.z, a[3] * x.x + a[1] * x.y + a[5] * x.z,
+          a[4] * x.x + a[5] * x.y + a[2] * x.z};
+}
+
+double LindstromTurkMetric::Quadratic::value(const glm::dvec3& x) const {
+  return glm::dot(x, times(x)) + 2 * glm::dot(b, x) + c;
+}
+
+void LindstromTurkMetric::Sums::add_triangle(const glm::dvec3& p, const glm::dvec3& a,
+                                             const glm::dvec3& b) {
+  const glm::dvec3 n = glm::cross(a - p, b - p);
+  const double d = glm::dot(n, p);
+  normals += n;
+  volumes += d;
+  volume.add_square(n, d);
+  n_around += 1;
+  around += a;
+}
 
 // Up to three planes n x = d, each at an angle to what the others span [Lindstrom, Turk 1998 4.1].
-class Constraints {
+class LindstromTurkMetric::Constraints {
  public:
-  explicit Constraints(double least_angle_deg) {
-    const double angle = glm::radians(least_angle_deg);
-    cosine2_ = std::cos(angle) * std::cos(angle);
-    sine2_ = std::sin(angle) * std::sin(angle);
-  }
+  Constraints(double cosine2, double sine2) : cosine2_(cosine2), sine2_(sine2) {}
   bool is_full() const { return n_ == 3; }
 
   void add(const glm::dvec3& normal, double d) {
@@ -104,56 +106,30 @@ class Constraints {
   double d_[3] = {};
 };
 
-}  // namespace
-
-// All in coordinates relative to `origin`.
-struct LindstromTurkMetric::Local {
-  glm::dvec3 origin{0};
-  glm::dvec3 normals{0};  // sum of the triangles' area vectors, twice the area long
-  double volumes = 0;     // sum of n x over the triangles
-  Quadratic volume;       // sum of (n x - n p)^2, 36 times a squared volume
-  glm::dvec3 along{0}, twist{0};
-  Quadratic boundary;  // 4 times a squared area
-  Quadratic shape;     // squared distances to the vertices around
-  double edge2 = 0;    // squared length of the edge
-  bool has_boundary = false;
-};
-
 LindstromTurkMetric::LindstromTurkMetric(CollapseMesh& mesh, std::span<glm::vec3> positions,
                                          const LindstromTurkOptions& options)
     : mesh_(mesh), positions_(positions), options_(options), on_boundary_(positions.size()) {
+  const double angle = glm::radians(options.least_angle_deg);
+  cosine2_ = std::cos(angle) * std::cos(angle);
+  sine2_ = std::sin(angle) * std::sin(angle);
   for (std::uint32_t v = 0; v < positions.size(); ++v) on_boundary_[v] = mesh.is_on_boundary(v);
 }
 
-LindstromTurkMetric::Local LindstromTurkMetric::gather(std::uint32_t u, std::uint32_t v) {
-  if (u > v) std::swap(u, v);  // the same sums from either side
-  Local local;
-  local.origin = glm::dvec3(positions_[u]);
-  const auto at = [&](std::uint32_t w) { return glm::dvec3(positions_[w]) - local.origin; };
-  const auto add = [&](const glm::dvec3& p, std::uint32_t a, std::uint32_t b) {
-    const glm::dvec3 pa = at(a), pb = at(b);
-    const glm::dvec3 n = glm::cross(pa - p, pb - p);
-    const double d = glm::dot(n, p);
-    local.normals += n;
-    local.volumes += d;
-    local.volume.add_square(n, d);
-    local.shape.a[0] += 1;
-    local.shape.b -= pa;
-  };
-  const glm::dvec3 pv = at(v);
-  mesh_.for_each_triangle(u, [&](std::uint32_t a, std::uint32_t b) { add({0, 0, 0}, a, b); });
-  mesh_.for_each_triangle(v, [&](std::uint32_t a, std::uint32_t b) {
-    if (a != u && b != u) add(pv, a, b);
+// The triangles of u, relative to u.
+void LindstromTurkMetric::gather_star(std::uint32_t u) {
+  if (star_of_ == u) return;
+  star_of_ = u;
+  star_ = {};
+  const glm::vec3 origin = positions_[u];
+  mesh_.for_each_triangle(u, [&](std::uint32_t a, std::uint32_t b) {
+    star_.add_triangle({0, 0, 0}, glm::dvec3(positions_[a] - origin),
+                       glm::dvec3(positions_[b] - origin));
   });
-  local.shape.a[1] = local.shape.a[2] = local.shape.a[0];
-  local.edge2 = glm::dot(pv, pv);
-  if (on_boundary_[u] || on_boundary_[v]) gather_boundary(u, v, local.origin, local);
-  return local;
 }
 
-// The boundary edges with an end at u or v.
-void LindstromTurkMetric::gather_boundary(std::uint32_t u, std::uint32_t v,
-                                          const glm::dvec3& origin, Local& local) {
+// The boundary edges with an end at u or v, relative to u.
+void LindstromTurkMetric::gather_boundary(std::uint32_t u, std::uint32_t v, Sums& sums) {
+  const glm::vec3 origin = positions_[u];
   for (const std::uint32_t w : {u, v}) {
     edges_.clear();
     mesh_.for_each_triangle(w, [&](std::uint32_t a, std::uint32_t b) {
@@ -166,43 +142,56 @@ void LindstromTurkMetric::gather_boundary(std::uint32_t u, std::uint32_t v,
         return (e.a == w ? e.b : e.a) == other;
       });
       if (n_uses != 1 || (w == v && other == u)) continue;
-      const glm::dvec3 a = glm::dvec3(positions_[edge.a]) - origin;
-      const glm::dvec3 b = glm::dvec3(positions_[edge.b]) - origin;
-      local.has_boundary = true;
-      local.along += b - a;
-      local.twist += glm::cross(a, b);
-      local.boundary.add_cross(b - a, glm::cross(a, b));
+      const glm::dvec3 a(positions_[edge.a] - origin), b(positions_[edge.b] - origin);
+      sums.has_boundary = true;
+      sums.along += b - a;
+      sums.twist += glm::cross(a, b);
+      sums.boundary.add_cross(b - a, glm::cross(a, b));
     }
   }
 }
 
-glm::dvec3 LindstromTurkMetric::least(const Local& local) const {
-  Constraints constraints(options_.least_angle_deg);
-  if (local.has_boundary) {
-    Quadratic kept;
-    kept.add_cross(local.along, local.twist);
-    constraints.add_minimum(kept);
-  }
-  constraints.add(local.normals, local.volumes);
+glm::dvec3 LindstromTurkMetric::least(const Sums& sums, double edge2) const {
+  Constraints constraints(cosine2_, sine2_);
   Quadratic both;
-  both.add(local.volume, options_.volume_weight / 36);
-  both.add(local.boundary, options_.boundary_weight * local.edge2 / 4);
+  both.add(sums.volume, options_.volume_weight / 36);
+  if (sums.has_boundary) {
+    Quadratic kept;
+    kept.add_cross(sums.along, sums.twist);
+    constraints.add_minimum(kept);
+    both.add(sums.boundary, options_.boundary_weight * edge2 / 4);
+  }
+  constraints.add(sums.normals, sums.volumes);
   constraints.add_minimum(both);
-  constraints.add_minimum(local.shape);
+  if (!constraints.is_full()) {
+    Quadratic shape;
+    shape.a[0] = shape.a[1] = shape.a[2] = sums.n_around;
+    shape.b = -sums.around;
+    constraints.add_minimum(shape);
+  }
   return constraints.solve();
 }
 
-float LindstromTurkMetric::cost(std::uint32_t u, std::uint32_t v) {
-  const Local local = gather(u, v);
-  const glm::dvec3 p = least(local);
-  const double value = options_.volume_weight / 36 * local.volume.value(p) +
-                       options_.boundary_weight * local.edge2 / 4 * local.boundary.value(p);
-  return static_cast<float>(std::cbrt(std::sqrt(std::max(value, 0.0))));
-}
-
-glm::vec3 LindstromTurkMetric::place(std::uint32_t u, std::uint32_t v) {
-  const Local local = gather(u, v);
-  return glm::vec3(local.origin + least(local));
+const LindstromTurkMetric::Evaluated& LindstromTurkMetric::evaluate(std::uint32_t u,
+                                                                    std::uint32_t v) {
+  if (u > v) std::swap(u, v);  // the same sums from either side
+  if (last_.u == u && last_.v == v) return last_;
+  gather_star(u);
+  Sums sums = star_;
+  const glm::vec3 origin = positions_[u];
+  const glm::dvec3 pv(positions_[v] - origin);
+  mesh_.for_each_triangle(v, [&](std::uint32_t a, std::uint32_t b) {
+    if (a != u && b != u)
+      sums.add_triangle(pv, glm::dvec3(positions_[a] - origin), glm::dvec3(positions_[b] - origin));
+  });
+  const double edge2 = glm::dot(pv, pv);
+  if (on_boundary_[u] || on_boundary_[v]) gather_boundary(u, v, sums);
+  const glm::dvec3 p = least(sums, edge2);
+  double value = options_.volume_weight / 36 * sums.volume.value(p);
+  if (sums.has_boundary) value += options_.boundary_weight * edge2 / 4 * sums.boundary.value(p);
+  const float cost = std::cbrt(static_cast<float>(std::sqrt(std::max(value, 0.0))));
+  last_ = {u, v, cost, glm::vec3(glm::dvec3(origin) + p)};
+  return last_;
 }
 
 }  // namespace viewcell

@@ -1,7 +1,7 @@
 #include "pm/qem.h"
 
 #include <algorithm>
-#include <tuple>
+#include <utility>
 
 namespace viewcell {
 namespace {
@@ -9,25 +9,32 @@ namespace {
 struct EdgeUse {
   std::uint32_t a, b;  // a < b
   std::uint32_t triangle;
-  bool operator<(const EdgeUse& e) const {
-    return std::tie(a, b, triangle) < std::tie(e.a, e.b, e.triangle);
-  }
 };
 
-// The edges that belong to exactly one triangle, sorted.
-std::vector<EdgeUse> find_boundary_edges(std::span<const Triangle> triangles) {
-  std::vector<EdgeUse> uses;
-  uses.reserve(3 * triangles.size());
-  for (std::uint32_t t = 0; t < triangles.size(); ++t)
-    for (std::size_t k = 0; k < 3; ++k) {
-      const auto [a, b] = std::minmax(triangles[t][k], triangles[t][(k + 1) % 3]);
-      uses.push_back({a, b, t});
-    }
-  std::sort(uses.begin(), uses.end());
+// The edges that belong to exactly one triangle, by their ends.
+std::vector<EdgeUse> find_boundary_edges(std::span<const Triangle> triangles, std::size_t n) {
+  const auto for_each_edge = [&](auto&& visit) {
+    for (std::uint32_t t = 0; t < triangles.size(); ++t)
+      for (std::size_t k = 0; k < 3; ++k) {
+        const auto [a, b] = std::minmax(triangles[t][k], triangles[t][(k + 1) % 3]);
+        visit(a, b, t);
+      }
+  };
+  std::vector<std::uint32_t> first(n + 1, 0);  // of each lower end's edges
+  for_each_edge([&](std::uint32_t a, std::uint32_t, std::uint32_t) { ++first[a + 1]; });
+  for (std::size_t v = 0; v < n; ++v) first[v + 1] += first[v];
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> uses(3 * triangles.size());  // b, triangle
+  std::vector<std::uint32_t> next(first.begin(), first.end() - 1);
+  for_each_edge([&](std::uint32_t a, std::uint32_t b, std::uint32_t t) {
+    uses[next[a]++] = {b, t};
+  });
   std::vector<EdgeUse> boundary;
-  for (std::size_t i = 0, j = 0; i < uses.size(); i = j) {
-    while (j < uses.size() && uses[j].a == uses[i].a && uses[j].b == uses[i].b) ++j;
-    if (j - i == 1) boundary.push_back(uses[i]);
+  for (std::uint32_t a = 0; a < n; ++a) {
+    std::sort(uses.begin() + first[a], uses.begin() + first[a + 1]);
+    for (std::uint32_t i = first[a], j = i; i < first[a + 1]; i = j) {
+      while (j < first[a + 1] && uses[j].first == uses[i].first) ++j;
+      if (j - i == 1) boundary.push_back({a, uses[i].first, uses[i].second});
+    }
   }
   return boundary;
 }
@@ -62,7 +69,7 @@ std::vector<Quadric> make_boundary_quadrics(std::span<const glm::vec3> positions
                                             const glm::dvec3& centre, const QemOptions& options) {
   std::vector<Quadric> quadrics(positions.size());
   const auto at = [&](std::uint32_t v) { return glm::dvec3(positions[v]) - centre; };
-  for (const EdgeUse& edge : find_boundary_edges(triangles)) {
+  for (const EdgeUse& edge : find_boundary_edges(triangles, positions.size())) {
     const glm::dvec3 along = at(edge.b) - at(edge.a);
     const glm::dvec3 across = glm::cross(along, area_vector(at, triangles[edge.triangle]));
     const double length = glm::length(across);

@@ -9,24 +9,6 @@
 namespace viewcell {
 namespace {
 
-// Vertices of the file at one position get the first one's id.
-std::vector<std::uint32_t> weld(const std::vector<glm::vec3>& positions) {
-  const auto key = [&](std::uint32_t v) {
-    const glm::vec3& p = positions[v];
-    return std::tuple(p.x, p.y, p.z, v);
-  };
-  std::vector<std::uint32_t> order(positions.size());
-  std::iota(order.begin(), order.end(), 0u);
-  std::sort(order.begin(), order.end(),
-            [&](std::uint32_t a, std::uint32_t b) { return key(a) < key(b); });
-  std::vector<std::uint32_t> first(positions.size());
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    const bool is_same = i > 0 && positions[order[i]] == positions[order[i - 1]];
-    first[order[i]] = is_same ? first[order[i - 1]] : order[i];
-  }
-  return first;
-}
-
 // Wedges of the faces' corners; the first texture coordinates met at a vertex of the file are those
 // of the wedge with its number.
 void add_texcoords(const TriMesh& mesh, WedgeMesh& out) {
@@ -54,6 +36,97 @@ void add_texcoords(const TriMesh& mesh, WedgeMesh& out) {
           wedge_of(out.faces[f][k], mesh.texcoords[3 * std::size_t{out.face_source[f]} + k]);
 }
 
+// 21 bits of each coordinate within the box, interleaved [Morton 1966].
+std::vector<std::uint64_t> morton_codes(const std::vector<glm::vec3>& positions) {
+  Box box;
+  for (const glm::vec3& p : positions) box.add(p);
+  const glm::dvec3 size = box.size();
+  const double longest = std::max({size.x, size.y, size.z});
+  const double cells = longest > 0 ? 2097151 / longest : 0;
+  const auto spread = [](std::uint64_t x) {
+    x = (x | x << 32) & 0x1f00000000ffffull;
+    x = (x | x << 16) & 0x1f0000ff0000ffull;
+    x = (x | x << 8) & 0x100f00f00f00f00full;
+    x = (x | x << 4) & 0x10c30c30c30c30c3ull;
+    return (x | x << 2) & 0x1249249249249249ull;
+  };
+  std::vector<std::uint64_t> codes;
+  codes.reserve(positions.size());
+  for (const glm::vec3& p : positions) {
+    const glm::dvec3 at = (glm::dvec3(p) - box.lo) * cells;
+    codes.push_back(spread(static_cast<std::uint64_t>(at.x)) |
+                    spread(static_cast<std::uint64_t>(at.y)) << 1 |
+                    spread(static_cast<std::uint64_t>(at.z)) << 2);
+  }
+  return codes;
+}
+
+std::vector<std::uint32_t> identity(std::uint32_t n) {
+  std::vector<std::uint32_t> out(n);
+  std::iota(out.begin(), out.end(), 0u);
+  return out;
+}
+
+// 0 ... n - 1 by key, then number.
+template <typename Key>
+std::vector<std::uint32_t> sorted_order(const std::vector<Key>& keys) {
+  std::vector<std::pair<Key, std::uint32_t>> pairs;
+  pairs.reserve(keys.size());
+  for (std::uint32_t i = 0; i < keys.size(); ++i) pairs.emplace_back(keys[i], i);
+  std::sort(pairs.begin(), pairs.end());
+  std::vector<std::uint32_t> order;
+  order.reserve(keys.size());
+  for (const auto& [key, i] : pairs) order.push_back(i);
+  return order;
+}
+
+// Vertices of the file at one position get the first one's id. order: along the curve.
+std::vector<std::uint32_t> weld(const std::vector<glm::vec3>& positions,
+                                const std::vector<std::uint64_t>& codes,
+                                const std::vector<std::uint32_t>& order) {
+  std::vector<std::uint32_t> first = identity(static_cast<std::uint32_t>(positions.size()));
+  const auto key = [&](std::uint32_t v) {
+    const glm::vec3& p = positions[v];
+    return std::tuple(p.x, p.y, p.z, v);
+  };
+  std::vector<std::uint32_t> cell;
+  for (std::size_t i = 0, end = 0; i < order.size(); i = end) {
+    while (end < order.size() && codes[order[end]] == codes[order[i]]) ++end;
+    if (end - i == 1) continue;
+    cell.assign(order.begin() + static_cast<std::ptrdiff_t>(i),
+                order.begin() + static_cast<std::ptrdiff_t>(end));
+    std::sort(cell.begin(), cell.end(),
+              [&](std::uint32_t a, std::uint32_t b) { return key(a) < key(b); });
+    for (std::size_t k = 1; k < cell.size(); ++k)
+      if (positions[cell[k]] == positions[cell[k - 1]]) first[cell[k]] = first[cell[k - 1]];
+  }
+  return first;
+}
+
+template <typename T>
+void permute(std::vector<T>& values, const std::vector<std::uint32_t>& order) {
+  std::vector<T> out;
+  out.reserve(values.size());
+  for (const std::uint32_t i : order) out.push_back(values[i]);
+  values = std::move(out);
+}
+
+void order_along_curve(const std::vector<std::uint32_t>& order, WedgeMesh& mesh) {
+  mesh.vertex_source = order;
+  permute(mesh.positions, mesh.vertex_source);
+  std::vector<std::uint32_t> place(mesh.positions.size());
+  for (std::uint32_t v = 0; v < place.size(); ++v) place[mesh.vertex_source[v]] = v;
+  for (std::uint32_t& v : mesh.wedge_vertex) v = place[v];
+  std::vector<std::uint32_t> lowest;
+  lowest.reserve(mesh.faces.size());
+  for (const Triangle& f : mesh.faces)
+    lowest.push_back(
+        std::min({mesh.wedge_vertex[f[0]], mesh.wedge_vertex[f[1]], mesh.wedge_vertex[f[2]]}));
+  mesh.face_place = sorted_order(lowest);
+  permute(mesh.faces, mesh.face_place);
+  permute(mesh.face_source, mesh.face_place);
+}
+
 }  // namespace
 
 std::vector<Triangle> WedgeMesh::vertex_triangles() const {
@@ -63,13 +136,14 @@ std::vector<Triangle> WedgeMesh::vertex_triangles() const {
   return out;
 }
 
-WedgeMesh make_wedges(const TriMesh& mesh) {
+WedgeMesh make_wedges(const TriMesh& mesh, bool along_curve) {
   WedgeMesh out;
   out.positions = mesh.positions;
-  out.wedge_vertex = weld(mesh.positions);
-  out.wedge_source.resize(mesh.positions.size());
-  std::iota(out.wedge_source.begin(), out.wedge_source.end(), 0u);
+  const std::vector<std::uint64_t> codes = morton_codes(mesh.positions);
+  const std::vector<std::uint32_t> order = sorted_order(codes);
+  out.wedge_vertex = weld(mesh.positions, codes, order);
   const auto n = static_cast<std::uint32_t>(mesh.positions.size());
+  out.wedge_source = identity(n);
   for (std::uint32_t v = 0; v < n; ++v) out.n_welded += out.wedge_vertex[v] != v;
   const auto& vertex = out.wedge_vertex;
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
@@ -82,6 +156,9 @@ WedgeMesh make_wedges(const TriMesh& mesh) {
     out.face_source.push_back(t);
   }
   if (!mesh.texcoords.empty()) add_texcoords(mesh, out);
+  out.vertex_source = identity(n);
+  out.face_place = identity(static_cast<std::uint32_t>(out.faces.size()));
+  if (along_curve) order_along_curve(order, out);
   return out;
 }
 

@@ -10,24 +10,28 @@
 
 namespace viewcell {
 
-/// Vertex ids are those of the file: where several vertices of the file stand at one position, the
-/// first is the vertex and the others are wedges of it only. Wedge w < n of the file's vertices has
-/// the attributes of vertex w; further wedges are second, third, ... texture coordinates of one.
+/// Where several vertices of the file stand at one position, the first is the vertex and the others
+/// are wedges of it only. Wedge w < n of the file's vertices has the attributes of vertex w;
+/// further wedges are second, third, ... texture coordinates of one. Vertices and faces may stand
+/// along a curve through space, so that neighbours lie together in memory.
 struct WedgeMesh {
-  std::vector<glm::vec3> positions;         ///< of the file's vertices
-  std::vector<std::uint32_t> wedge_vertex;  ///< wedge -> vertex
-  std::vector<std::uint32_t> wedge_source;  ///< wedge -> vertex of the file, for its attributes
-  std::vector<glm::vec2> texcoords;         ///< of wedges; empty without
-  std::vector<Triangle> faces;              ///< three wedges each, in the file's order
-  std::vector<std::uint32_t> face_source;   ///< face -> triangle of the file
-  std::size_t n_welded = 0;                 ///< vertices of the file that are not a vertex here
-  std::size_t n_dropped = 0;                ///< triangles with two corners at one position
+  std::vector<glm::vec3> positions;
+  std::vector<std::uint32_t> vertex_source;  ///< vertex -> the file's number of it
+  std::vector<std::uint32_t> wedge_vertex;   ///< wedge -> vertex
+  std::vector<std::uint32_t> wedge_source;   ///< wedge -> vertex of the file, for its attributes
+  std::vector<glm::vec2> texcoords;          ///< of wedges; empty without
+  std::vector<Triangle> faces;               ///< three wedges each
+  std::vector<std::uint32_t> face_source;    ///< face -> triangle of the file
+  std::vector<std::uint32_t> face_place;     ///< face -> its place among those that are here
+  std::size_t n_welded = 0;                  ///< vertices of the file that are not a vertex here
+  std::size_t n_dropped = 0;                 ///< triangles with two corners at one position
 
   std::size_t n_wedges() const { return wedge_vertex.size(); }
   std::vector<Triangle> vertex_triangles() const;
 };
 
-WedgeMesh make_wedges(const TriMesh& mesh);
+/// along_curve: false keeps the order of the file.
+WedgeMesh make_wedges(const TriMesh& mesh, bool along_curve = false);
 
 /// The wedge at every corner while the mesh collapses.
 class WedgeTable {

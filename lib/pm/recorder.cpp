@@ -1,0 +1,140 @@
+#include "pm/recorder.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "base/error.h"
+
+namespace viewcell {
+namespace {
+
+template <typename T>
+std::uint32_t size32(const std::vector<T>& values) {
+  return static_cast<std::uint32_t>(values.size());
+}
+
+// The groups of values in opposite order, each group as it is; count(split) is a group's size. The
+// values are let go.
+template <typename T, typename Count>
+std::vector<T> reverse_groups(std::vector<T>& values, const std::vector<VertexSplit>& splits,
+                              Count&& count) {
+  std::vector<T> out;
+  out.reserve(values.size());
+  auto at = values.end();
+  for (std::size_t i = splits.size(); i-- > 0;) {
+    const auto end = at;
+    at -= count(splits[i]);
+    out.insert(out.end(), at, end);
+  }
+  values = {};
+  return out;
+}
+
+}  // namespace
+
+Recorder::Recorder(const WedgeMesh& mesh, const TriMesh& input, float scale, bool is_full_edge)
+    : mesh_(mesh),
+      input_(input),
+      scale_(scale),
+      is_full_(is_full_edge),
+      has_moved_(is_full_edge ? mesh.positions.size() : 0, false),
+      texcoords_(mesh.texcoords),
+      table_(mesh) {
+  splits_.reserve(mesh.positions.size());
+}
+
+void Recorder::traced(std::uint32_t, std::uint32_t v, const CollapseTrace& trace) {
+  moved_from_.clear();
+  for (const std::uint32_t c : trace.moved) moved_from_.push_back(table_.at(c));
+  table_.apply(trace);
+  matched_ = table_.pairs();
+  if (is_full_) parent_positions_.push_back(unscaled(v, mesh_.positions[v]));
+}
+
+void Recorder::made(std::uint32_t u, std::uint32_t v, float cost, float error,
+                    const CollapseTrace& trace) {
+  splits_.push_back({mesh_.vertex_source[u], mesh_.vertex_source[v], size32(trace.died),
+                     size32(trace.moved), size32(matched_), cost, error});
+  for (const std::uint32_t face : trace.died) born_.push_back(mesh_.face_place[face]);
+  for (const std::uint32_t c : trace.moved) moved_.push_back(3 * mesh_.face_place[c / 3] + c % 3);
+  for (const std::uint32_t wedge : moved_from_) moved_by_.push_back(place_of(wedge));
+  for (const auto& [from, to] : matched_) pairs_.push_back({from, to});
+  if (!is_full_) return;
+  if (!texcoords_.empty()) move_texcoords(u, v);
+  has_moved_[v] = true;
+}
+
+std::uint8_t Recorder::place_of(std::uint32_t wedge) const {
+  const auto found = std::find_if(matched_.begin(), matched_.end(),
+                                  [&](const auto& pair) { return pair.from == wedge; });
+  const auto place = found - matched_.begin();
+  VIEWCELL_CHECK(place < 256, place);
+  return static_cast<std::uint8_t>(place);
+}
+
+// A position in the input's units, to the bit where it is the input's.
+glm::vec3 Recorder::unscaled(std::uint32_t v, const glm::vec3& p) const {
+  return has_moved_[v] ? p / scale_ : input_.positions[mesh_.vertex_source[v]];
+}
+
+// The parent's texture coordinates go as far towards the child's as its position did.
+void Recorder::move_texcoords(std::uint32_t u, std::uint32_t v) {
+  const glm::dvec3 from(parent_positions_.back() * scale_);
+  const glm::dvec3 edge = glm::dvec3(mesh_.positions[u]) - from;
+  const double length2 = glm::dot(edge, edge);
+  const double along = glm::dot(glm::dvec3(mesh_.positions[v]) - from, edge);
+  const double t = length2 > 0 ? std::clamp(along / length2, 0.0, 1.0) : 0.0;
+  for (const auto& [child, parent] : matched_) {
+    parent_texcoords_.push_back(texcoords_[parent]);
+    texcoords_[parent] =
+        glm::vec2(glm::mix(glm::dvec2(texcoords_[parent]), glm::dvec2(texcoords_[child]), t));
+  }
+}
+
+void Recorder::add_attributes(ProgressiveRecord& r) const {
+  TriMesh& to = r.attributes;
+  to.positions = input_.positions;
+  to.normals = input_.normals;
+  to.colors = input_.colors;
+  to.material_names = input_.material_names;
+  if (is_full_)
+    for (std::uint32_t v = 0; v < mesh_.positions.size(); ++v)
+      to.positions[mesh_.vertex_source[v]] = unscaled(v, mesh_.positions[v]);
+  const std::size_t n = input_.positions.size();
+  for (std::size_t w = 0; w < mesh_.n_wedges(); ++w) {
+    if (w < n)
+      r.vertex_of.push_back(mesh_.vertex_source[mesh_.wedge_vertex[w]]);
+    else
+      r.extra_sources.push_back(mesh_.wedge_source[w]);
+  }
+  r.faces.resize(mesh_.faces.size());
+  if (!input_.materials.empty()) to.materials.resize(mesh_.faces.size());
+  for (std::uint32_t f = 0; f < mesh_.faces.size(); ++f) {
+    const std::uint32_t place = mesh_.face_place[f];
+    r.faces[place] = {table_.at(3 * f), table_.at(3 * f + 1), table_.at(3 * f + 2)};
+    if (!input_.materials.empty()) to.materials[place] = input_.materials[mesh_.face_source[f]];
+  }
+}
+
+void Recorder::add_splits(ProgressiveRecord& r) {
+  const auto one = [](const VertexSplit&) { return 1; };
+  r.born = reverse_groups(born_, splits_, [](const VertexSplit& s) { return s.n_born; });
+  r.moved = reverse_groups(moved_, splits_, [](const VertexSplit& s) { return s.n_moved; });
+  r.moved_by = reverse_groups(moved_by_, splits_, [](const VertexSplit& s) { return s.n_moved; });
+  r.pairs = reverse_groups(pairs_, splits_, [](const VertexSplit& s) { return s.n_pairs; });
+  if (is_full_) r.parent_positions = reverse_groups(parent_positions_, splits_, one);
+  if (!parent_texcoords_.empty())
+    r.parent_texcoords =
+        reverse_groups(parent_texcoords_, splits_, [](const VertexSplit& s) { return s.n_pairs; });
+  r.splits.assign(splits_.rbegin(), splits_.rend());
+}
+
+ProgressiveRecord Recorder::finish() {
+  ProgressiveRecord r;
+  add_splits(r);
+  add_attributes(r);
+  r.texcoords = std::move(texcoords_);
+  return r;
+}
+
+}  // namespace viewcell

@@ -1,0 +1,59 @@
+// Turns the collapses of a loop into a progressive mesh.
+#pragma once
+
+#include <vector>
+
+#include "pm/progressive_mesh.h"
+#include "pm/wedge_mesh.h"
+
+namespace viewcell {
+
+/// Keeps what every collapse did, in the numbers of the input. Told of each collapse in turn:
+/// match(), traced(), made().
+class Recorder {
+ public:
+  /// Keeps references. mesh.positions are the input's times `scale`, in the order of mesh; a
+  /// full-edge metric moves them. input: the mesh as it was read.
+  Recorder(const WedgeMesh& mesh, const TriMesh& input, float scale, bool is_full_edge);
+
+  /// Whether u may collapse into v for what stands at their wedges, see WedgeTable::match.
+  bool match(const CollapseMesh& mesh, std::uint32_t u, std::uint32_t v) {
+    return table_.match(mesh, u, v, is_full_);
+  }
+  /// The triangles have changed; the parent has not moved yet.
+  void traced(std::uint32_t u, std::uint32_t v, const CollapseTrace& trace);
+  /// The parent has moved. cost and error are in the input's units.
+  void made(std::uint32_t u, std::uint32_t v, float cost, float error, const CollapseTrace& trace);
+  /// The collapses backwards, as splits. Ends the recorder.
+  ProgressiveRecord finish();
+
+  /// The wedges and texture coordinates of the mesh as it is now.
+  WedgeTable& table() { return table_; }
+  const std::vector<glm::vec2>& texcoords() const { return texcoords_; }
+
+ private:
+  std::uint8_t place_of(std::uint32_t wedge) const;
+  glm::vec3 unscaled(std::uint32_t v, const glm::vec3& p) const;
+  void move_texcoords(std::uint32_t u, std::uint32_t v);
+  void add_attributes(ProgressiveRecord& record) const;
+  void add_splits(ProgressiveRecord& record);
+
+  const WedgeMesh& mesh_;
+  const TriMesh& input_;
+  float scale_;
+  bool is_full_;
+  std::vector<bool> has_moved_;  // by vertex, for full-edge collapses
+  std::vector<glm::vec2> texcoords_;
+  WedgeTable table_;
+  std::vector<WedgeTable::Pair> matched_;  // of the last collapse
+  std::vector<std::uint32_t> moved_from_;  // wedges of the last collapse's moved corners
+  // In the order of the collapses, as in ProgressiveRecord.
+  std::vector<VertexSplit> splits_;
+  std::vector<std::uint32_t> born_, moved_;
+  std::vector<std::uint8_t> moved_by_;
+  std::vector<ProgressiveRecord::WedgePair> pairs_;
+  std::vector<glm::vec3> parent_positions_;
+  std::vector<glm::vec2> parent_texcoords_;
+};
+
+}  // namespace viewcell
