@@ -241,7 +241,7 @@ void CollapseMap::add_cell(std::uint32_t old_face, std::uint32_t new_face,
   const glm::vec3 l(lo), h(hi);
   const glm::vec3 out = kOutward * glm::max(glm::abs(l), glm::abs(h));
   MapCell cell{old_face, new_face, {l - out, h + out}};
-  for (std::size_t i = 1; i + 1 < corners.size(); ++i) {
+  for (std::size_t i = 1; with_moments_ && i + 1 < corners.size(); ++i) {
     const glm::dvec3 p = corners[0].before;
     const double area =
         0.5 * glm::length(glm::cross(corners[i].before - p, corners[i + 1].before - p));

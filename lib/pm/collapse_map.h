@@ -55,15 +55,16 @@ struct MapCell {
 /// On a boundary of the mesh or of a texture chart u goes to the new boundary edge.
 class CollapseMap {
  public:
-  /// Keeps references. Not thread-safe.
+  /// Keeps references. with_moments: cells have area, mean and square. Not thread-safe.
   CollapseMap(const CollapseMesh& mesh, const WedgeTable& wedges,
               std::span<const glm::vec3> positions, std::span<const glm::vec2> texcoords,
-              Matching matching)
+              Matching matching, bool with_moments)
       : mesh_(mesh),
         wedges_(wedges),
         positions_(positions),
         texcoords_(texcoords),
-        matching_(matching) {}
+        matching_(matching),
+        with_moments_(with_moments) {}
 
   /// Lays out the map of u -> v. False when there is none: the star of u is no fan, v is not at
   /// its boundary's end, or a part of the surface has no face to go to.
@@ -108,6 +109,7 @@ class CollapseMap {
   std::span<const glm::vec3> positions_;
   std::span<const glm::vec2> texcoords_;
   Matching matching_;
+  bool with_moments_;
   std::vector<MapCell> cells_;
   double largest2_ = 0;
   bool keeps_orientation_ = true;

@@ -63,7 +63,6 @@ class CollapseMesh {
   }
 
   /// The vertices joined to v by an edge, each once, in an order that depends on the history only.
-  ///
   void ring(std::uint32_t v, std::vector<std::uint32_t>& out) const;
 
   /// Whether the half-edge collapse u -> v keeps the surface's topology (the link condition),

@@ -10,7 +10,8 @@ MappingMetric::MappingMetric(const CollapseMesh& mesh, const WedgeTable& wedges,
                              std::span<const glm::vec3> positions,
                              std::span<const glm::vec2> texcoords,
                              std::span<const Triangle> triangles, const MappingOptions& options)
-    : options_(options), map_(mesh, wedges, positions, texcoords, options.matching) {
+    : options_(options),
+      map_(mesh, wedges, positions, texcoords, options.matching, options.measure == Measure::mean) {
   if (options.measure == Measure::max) {
     boxes_.resize(options.total ? triangles.size() : 0);
     if (options.total) bound_ = 0;
