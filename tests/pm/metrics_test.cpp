@@ -1,0 +1,133 @@
+// Laws of the metrics that place vertices or look at texture.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "pm/build.h"
+#include "pm/lindstrom_turk.h"
+#include "pm/qem.h"
+#include "pm/shapes.h"
+#include "pm/texture_qem.h"
+
+namespace viewcell {
+namespace {
+
+TEST(QemFullMetric, PlacesWhereTheCostIsLeast) {
+  TriMesh mesh = make_noisy_sphere(2, 0.2, 1);
+  QemFullMetric metric(mesh.positions, mesh.triangles);
+  const glm::dvec3 centre = box_centre(mesh.positions);
+  const std::vector<Quadric> quadrics = make_quadrics(mesh.positions, mesh.triangles, centre);
+  Random random(2);
+  for (const Triangle& t : mesh.triangles) {
+    Quadric sum = quadrics[t[0]];
+    sum.add(quadrics[t[1]]);
+    const glm::dvec3 place = glm::dvec3(metric.place(t[0], t[1])) - centre;
+    const double least = sum.value(place);
+    EXPECT_NEAR(metric.cost(t[0], t[1]), std::sqrt(least / sum.weight), 1e-5);
+    EXPECT_EQ(metric.place(t[0], t[1]), metric.place(t[1], t[0]));
+    for (int i = 0; i < 20; ++i) {
+      const glm::dvec3 off(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
+      EXPECT_GE(sum.value(place + 0.1 * off), least * (1 - 1e-4) - 1e-12);
+    }
+  }
+}
+
+// Where planes leave a point free it stays beside the middle of the edge.
+TEST(QemFullMetric, FlatPlacesAreTheMiddle) {
+  TriMesh grid = make_flat_grid(4);
+  QemFullMetric metric(grid.positions, grid.triangles);
+  EXPECT_LT(glm::distance(metric.place(12, 13), glm::vec3(2.5f, 2, 0)), 1e-5f);
+  EXPECT_NEAR(metric.cost(12, 13), 0, 1e-6);
+}
+
+TEST(LindstromTurk, CostAndPlaceAreTheSameFromBothEnds) {
+  TriMesh mesh = make_noisy_sphere(3, 0.2, 3);
+  mesh.triangles.resize(400);  // with a boundary
+  CollapseMesh work(mesh.positions, mesh.triangles);
+  LindstromTurkMetric metric(work, mesh.positions);
+  for (const Triangle& t : mesh.triangles) {
+    const float cost = metric.cost(t[0], t[1]);
+    const glm::vec3 place = metric.place(t[0], t[1]);
+    metric.cost(t[1], t[2]);  // another edge in between
+    EXPECT_EQ(metric.cost(t[1], t[0]), cost);
+    EXPECT_EQ(metric.place(t[1], t[0]), place);
+    EXPECT_TRUE(std::isfinite(cost) && std::isfinite(glm::length(place)));
+  }
+}
+
+// A straight boundary of a flat grid stays straight, and an edge along it collapses for nothing.
+TEST(LindstromTurk, BoundariesAreKept) {
+  TriMesh grid = make_flat_grid(6);
+  CollapseMesh work(grid.positions, grid.triangles);
+  LindstromTurkMetric metric(work, grid.positions);
+  EXPECT_NEAR(metric.cost(2, 3), 0, 1e-4);
+  EXPECT_NEAR(metric.place(2, 3).y, 0, 1e-5);
+  EXPECT_NEAR(metric.place(2, 3).z, 0, 1e-5);
+  EXPECT_LT(glm::length(metric.place(0, 7)), 1e-4f);  // a corner stays where it is
+  EXPECT_NEAR(metric.cost(16, 17), 0, 1e-4);
+}
+
+// The volume between the old and the new surface is nothing.
+TEST(LindstromTurk, OneStepKeepsTheVolume) {
+  const TriMesh sphere = make_noisy_sphere(2, 0.2, 4);
+  for (std::uint32_t k = 0; k < 20; ++k) {
+    TriMesh mesh = sphere;
+    CollapseMesh work(mesh.positions, mesh.triangles);
+    LindstromTurkMetric metric(work, mesh.positions);
+    const std::uint32_t u = mesh.triangles[k][0], v = mesh.triangles[k][1];
+    const glm::vec3 place = metric.place(u, v);
+    work.collapse(u, v);
+    mesh.positions[v] = place;
+    const auto volume = [](const std::vector<glm::vec3>& p,
+                           const std::vector<Triangle>& triangles) {
+      double sum = 0;
+      for (const Triangle& t : triangles)
+        sum += glm::dot(glm::dvec3(p[t[0]]), glm::cross(glm::dvec3(p[t[1]]), glm::dvec3(p[t[2]])));
+      return sum / 6;
+    };
+    EXPECT_NEAR(volume(mesh.positions, work.triangles()),
+                volume(sphere.positions, sphere.triangles), 1e-6);
+  }
+}
+
+TEST(TextureQem, ConstantTextureIsQem3) {
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    TriMesh mesh = make_noisy_sphere(3, 0.1, seed);
+    mesh.triangles.resize(mesh.triangles.size() - 40);  // with a boundary
+    BuildOptions options;
+    const ProgressiveRecord qem3 = build_progressive_mesh(mesh, options).record;
+    mesh.texcoords.assign(3 * mesh.triangles.size(), {0.25f, 0.75f});
+    options.metric = MetricKind::qem5;
+    const ProgressiveRecord qem5 = build_progressive_mesh(mesh, options).record;
+    ASSERT_EQ(qem5.splits.size(), qem3.splits.size());
+    for (std::size_t i = 0; i < qem3.splits.size(); ++i)
+      ASSERT_NEAR(qem5.splits[i].cost, qem3.splits[i].cost, 1e-5 + 1e-3 * qem3.splits[i].cost) << i;
+  }
+}
+
+// A texture that is an affine map of a plane costs nothing; one that bends does.
+TEST(TextureQem, BentTexturesCost) {
+  TriMesh grid = make_flat_grid(8);
+  for (const Triangle& t : grid.triangles)
+    for (const std::uint32_t v : t) {
+      const glm::vec3& p = grid.positions[v];
+      grid.texcoords.emplace_back(0.1f * p.x + 0.02f * p.y, 0.3f - 0.1f * p.y);
+    }
+  const auto cost_of = [](const TriMesh& mesh) {
+    WedgeMesh wedges = make_wedges(mesh);
+    const std::vector<Triangle> triangles = wedges.vertex_triangles();
+    CollapseMesh work(wedges.positions, triangles);
+    WedgeTable table(wedges);
+    return TextureQemMetric(work, wedges, table, wedges.positions).cost(40, 49);  // upwards
+  };
+  EXPECT_NEAR(cost_of(grid), 0, 1e-5);
+  TriMesh bent = grid;
+  for (glm::vec2& uv : bent.texcoords) uv.x += 0.02f * std::sin(20 * uv.y);
+  EXPECT_GT(cost_of(bent), 0.01f);
+  for (std::size_t c = 0; c < grid.texcoords.size(); ++c)
+    if (grid.triangles[c / 3][c % 3] == 40) grid.texcoords[c].x += 0.05f;  // one vertex slides
+  EXPECT_GT(cost_of(grid), 0.01f);
+}
+
+}  // namespace
+}  // namespace viewcell
