@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "base/error.h"
+#include "pm/nearest.h"
 #include "pm/recorder.h"
 #include "pm/wedge_mesh.h"
 
@@ -40,6 +41,7 @@ float unit_scale(const std::vector<glm::vec3>& positions) {
 // The metric asked for, held to the boundaries of texture charts, with every collapse recorded.
 template <typename Metric>
 struct Recorded {
+  const CollapseMesh& mesh;
   Metric& metric;
   Recorder& recorder;
   MappingMetric* guard;  // of the error bound, or none
@@ -50,9 +52,18 @@ struct Recorded {
   }();
 
   float cost(std::uint32_t u, std::uint32_t v) { return metric.cost(u, v); }
+  // Along the border of two charts the place stays on the edge, whatever the metric knows of
+  // charts.
   glm::vec3 place(std::uint32_t u, std::uint32_t v) requires requires(Metric m) { m.place(u, v); }
-  { return metric.place(u, v); }
-  Refusal allows(const CollapseMesh& mesh, std::uint32_t u, std::uint32_t v) {
+  {
+    const glm::vec3 free = metric.place(u, v);
+    if (recorder.texcoords().empty() || !recorder.match(mesh, u, v) ||
+        recorder.table().pairs().size() < 2)
+      return free;
+    const glm::dvec3 a(mesh.position(u)), b(mesh.position(v));
+    return glm::vec3(glm::mix(a, b, closest_on_segment(glm::dvec3(free), a, b)));
+  }
+  Refusal allows(const CollapseMesh&, std::uint32_t u, std::uint32_t v) {
     if (!recorder.match(mesh, u, v)) return Refusal::chart;
     const Refusal refusal = as_refusal(metric.allows(mesh, u, v));
     if (refusal != Refusal::none || !guard) return refusal;
@@ -82,7 +93,7 @@ CollapseCounts collapse_all(CollapseMesh& mesh, Metric& metric, Recorder& record
                             MappingMetric* guard, float scale, const BuildOptions& options,
                             const Progress& progress) {
   constexpr std::size_t kSlices = 100;
-  Recorded<Metric> recorded{metric, recorder, guard, options.error_bound * scale};
+  Recorded<Metric> recorded{mesh, metric, recorder, guard, options.error_bound * scale};
   CollapseLoop loop(mesh, recorded);
   const std::size_t start = mesh.n_triangles();
   const std::size_t span = start - std::min(start, std::max<std::size_t>(options.target_faces, 1));

@@ -250,6 +250,30 @@ TEST(CollapseMesh, SurvivesNonManifoldInput) {
   }
 }
 
+//   3---4---5      0 4 is inside, but joins two boundary vertices: collapsing it would pinch
+//   | / | / |
+//   0---1---2
+TEST(CollapseMesh, FullEdgesDoNotPinch) {
+  const std::vector<glm::vec3> positions{{0, 0, 0}, {1, 0, 0}, {2, 0, 0},
+                                         {0, 1, 0}, {1, 1, 0}, {2, 1, 0}};
+  const std::vector<Triangle> triangles{{0, 1, 4}, {0, 4, 3}, {1, 2, 5}, {1, 5, 4}};
+  CollapseMesh mesh(positions, triangles);
+  EXPECT_EQ(mesh.check(0, 4, {0.5f, 0.5f, 0}, kAnyTurn), Refusal::boundary);
+  EXPECT_EQ(mesh.check(1, 2, {1.5f, 0, 0}, kAnyTurn), Refusal::none);
+}
+
+// The triangles of both ends are looked at: above the middle all stand upright enough; below the
+// grid those of one end only turn over.
+TEST(CollapseMesh, FullEdgesTurnNoTriangleOfEitherEnd) {
+  const TriMesh grid = make_flat_grid(6);
+  CollapseMesh mesh(grid.positions, grid.triangles);
+  EXPECT_EQ(mesh.check(23, 24, {2.5f, 3, 0}, 0.2f), Refusal::none);
+  EXPECT_EQ(mesh.check(23, 24, {0.5f, 3, 0}, 0.2f), Refusal::flip);  // left of 23's neighbours
+  EXPECT_EQ(mesh.check(23, 24, {4.5f, 3, 0}, 0.2f), Refusal::flip);  // right of 24's
+  EXPECT_EQ(mesh.check(24, 23, {0.5f, 3, 0}, 0.2f), Refusal::flip);
+  EXPECT_EQ(mesh.check(24, 23, {4.5f, 3, 0}, 0.2f), Refusal::flip);
+}
+
 TEST(Refusal, EveryKindHasAName) {
   std::set<std::string> names;
   for (int i = 0; i < kRefusalKinds; ++i) names.insert(refusal_name(static_cast<Refusal>(i)));

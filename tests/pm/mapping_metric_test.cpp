@@ -259,6 +259,107 @@ TEST(MappingMetric, TotalErrorsHold) {
   EXPECT_GT(tightest, 0.8);
 }
 
+// An open mesh in relief, with texture coordinates that are a little off.
+TriMesh make_relief(std::uint64_t seed) {
+  Random random(seed);
+  TriMesh grid = make_flat_grid(7);
+  std::vector<glm::vec2> uv;
+  for (glm::vec3& p : grid.positions) {
+    uv.emplace_back(p.x + random.uniform(-0.1, 0.1), p.y + random.uniform(-0.1, 0.1));
+    p.z = static_cast<float>(random.uniform(0, 0.7));
+  }
+  for (const Triangle& t : grid.triangles)
+    for (const std::uint32_t v : t) grid.texcoords.push_back(uv[v]);
+  return grid;
+}
+
+TEST(MappingMetric, TotalErrorsHoldAtBoundaries) {
+  double tightest = 0;
+  for (std::uint64_t seed = 1; seed <= 100; ++seed) {
+    SCOPED_TRACE(seed);
+    const TriMesh relief = make_relief(seed);
+    BuildOptions options;
+    options.metric = seed % 2 ? MetricKind::mapping : MetricKind::aps;
+    options.min_cosine = -1;  // whatever folds
+    ProgressiveMesh pm(build_progressive_mesh(relief, options).record);
+    for (const std::size_t n : {60u, 30u, 10u, 3u}) {
+      pm.set_faces(n);
+      const double measured = measure_max(relief, pm.extract());
+      ASSERT_LE(measured, pm.error() * (1 + 1e-6)) << n;
+      tightest = std::max(tightest, measured / pm.error());
+    }
+  }
+  EXPECT_GT(tightest, 0.8);
+}
+
+TEST(MappingMetric, NoFaceTurnsOverInTheTexture) {
+  for (std::uint64_t seed = 1; seed <= 10; ++seed)
+    for (const MetricKind kind : {MetricKind::aps, MetricKind::mapping}) {
+      SCOPED_TRACE(seed);
+      BuildOptions options;
+      options.metric = kind;
+      options.min_cosine = -1;
+      ProgressiveMesh pm(build_progressive_mesh(make_relief(seed), options).record);
+      for (;;) {
+        const TriMesh mesh = pm.extract();
+        for (std::size_t c = 0; c < mesh.texcoords.size(); c += 3) {
+          const glm::vec2 a = mesh.texcoords[c + 1] - mesh.texcoords[c];
+          const glm::vec2 b = mesh.texcoords[c + 2] - mesh.texcoords[c];
+          ASSERT_GT(a.x * b.y - a.y * b.x, 0) << pm.level();
+        }
+        if (pm.level() == pm.n_splits()) break;
+        pm.refine();
+      }
+    }
+}
+
+// The parts of an old face that the cells take make up the face.
+TEST(CollapseMap, CellsCoverTheStar) {
+  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+    SCOPED_TRACE(seed);
+    Random random(seed);
+    const TriMesh fan = make_fan(4 + random.below(6), 0.1, 0, random);
+    const std::uint32_t v = 1 + random.below(static_cast<std::uint32_t>(fan.positions.size() - 1));
+    Parts parts(fan);
+    CollapseMap map(parts.mesh, parts.table, parts.wedges.positions, parts.wedges.texcoords,
+                    Matching::texture, true);
+    ASSERT_TRUE(map.lay(0, v));
+    if (!map.keeps_texture_orientation()) continue;
+    std::vector<double> covered(fan.triangles.size(), 0);
+    for (const MapCell& cell : map.cells()) covered[cell.old_face] += cell.area;
+    for (std::size_t f = 0; f < fan.triangles.size(); ++f)
+      EXPECT_NEAR(covered[f], glm::length(area_normal(fan, fan.triangles[f])) / 2, 1e-5) << f;
+  }
+}
+
+// Costs of the mean add up to the mean square distance of matched points, which is about that of
+// nearest points, and no less than it.
+TEST(MappingMetric, MeansAddUp) {
+  for (const std::uint64_t seed : {1u, 2u, 3u}) {
+    TriMesh sphere = make_noisy_sphere(4, 0.01, seed);
+    for (const Triangle& t : sphere.triangles)
+      for (const std::uint32_t v : t)
+        sphere.texcoords.emplace_back(
+            sphere.positions[v].x + (sphere.positions[t[0]].z > 0 ? 3 : 0), sphere.positions[v].y);
+    BuildOptions options;
+    options.metric = MetricKind::mapping;
+    options.measure = Measure::mean;
+    const BuildResult built = build_progressive_mesh(sphere, options);
+    ProgressiveMesh pm(built.record);
+    for (const std::size_t n : {500u, 200u, 100u}) {
+      pm.set_faces(n);
+      double square = 0;
+      for (std::size_t i = pm.level(); i < pm.n_splits(); ++i)
+        square += std::pow(built.record.splits[i].cost, 2);
+      DistanceOptions distance;
+      distance.n_samples = 20000;
+      const double rms = measure_surface_distance(sphere, pm.extract(), distance).forward.rms;
+      EXPECT_GT(std::sqrt(square), 0.98 * rms) << n;
+      EXPECT_LT(std::sqrt(square), 1.35 * rms) << n;
+    }
+  }
+}
+
 TEST(MappingMetric, ABoundIsKept) {
   const TriMesh sphere = make_noisy_sphere(4, 0.02, 3);
   BuildOptions options;

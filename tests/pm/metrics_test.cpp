@@ -1,6 +1,7 @@
 // Laws of the metrics that place vertices or look at texture.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "pm/build.h"
@@ -87,6 +88,80 @@ TEST(LindstromTurk, OneStepKeepsTheVolume) {
     };
     EXPECT_NEAR(volume(mesh.positions, work.triangles()),
                 volume(sphere.positions, sphere.triangles), 1e-6);
+  }
+}
+
+// No point that keeps the volume changes less volume, squared and summed over the triangles.
+TEST(LindstromTurk, PlacesWhereVolumesChangeLeast) {
+  TriMesh mesh = make_noisy_sphere(2, 0.2, 5);
+  CollapseMesh work(mesh.positions, mesh.triangles);
+  LindstromTurkMetric metric(work, mesh.positions);
+  Random random(6);
+  for (std::size_t k = 0; k < mesh.triangles.size(); k += 3) {
+    const std::uint32_t u = mesh.triangles[k][0], v = mesh.triangles[k][1];
+    std::vector<glm::dvec3> normals, points;
+    glm::dvec3 sum(0);
+    for (const Triangle& t : mesh.triangles) {
+      if (std::count(t.begin(), t.end(), u) + std::count(t.begin(), t.end(), v) == 0) continue;
+      normals.push_back(area_normal(mesh, t));
+      points.emplace_back(mesh.positions[t[0]]);
+      sum += normals.back();
+    }
+    const auto changed = [&](const glm::dvec3& p) {
+      double total = 0;
+      for (std::size_t i = 0; i < normals.size(); ++i)
+        total += std::pow(glm::dot(normals[i], p - points[i]), 2);
+      return total;
+    };
+    const glm::dvec3 place(metric.place(u, v));
+    for (int i = 0; i < 20; ++i) {
+      const glm::dvec3 any(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
+      const glm::dvec3 along = any - glm::dot(any, sum) / glm::dot(sum, sum) * sum;
+      EXPECT_GE(changed(place + 0.05 * along), changed(place) * (1 - 1e-4));
+    }
+  }
+}
+
+// Memory of earlier stars must not outlive a collapse.
+TEST(LindstromTurk, CostsAreThoseOfTheMeshAsItIs) {
+  TriMesh mesh = make_noisy_sphere(2, 0.2, 7);
+  CollapseMesh work(mesh.positions, mesh.triangles);
+  LindstromTurkMetric metric(work, mesh.positions);
+  for (int step = 0; step < 20; ++step) {
+    const Triangle t = work.triangles()[static_cast<std::size_t>(step)];
+    const std::uint32_t u = t[0], v = t[1], w = t[2];
+    if (work.check(u, v, -1) != Refusal::none) continue;
+    metric.cost(v, w);  // the star of v or w is summed
+    const glm::vec3 place = metric.place(u, v);
+    metric.cost(v, w);
+    work.collapse(u, v);
+    metric.collapsed(u, v, place);
+    TriMesh now = mesh;
+    LindstromTurkMetric fresh(work, now.positions);
+    std::vector<std::uint32_t> ring;
+    work.ring(v, ring);
+    for (const std::uint32_t x : ring) EXPECT_EQ(metric.cost(v, x), fresh.cost(v, x));
+  }
+}
+
+// The outline of a flat disk keeps the area that it encloses.
+TEST(LindstromTurk, FlatOutlinesKeepTheirArea) {
+  TriMesh disk = make_flat_grid(10);
+  Random random(8);
+  for (glm::vec3& p : disk.positions)
+    p += glm::vec3(random.uniform(-0.2, 0.2), random.uniform(-0.2, 0.2), 0);
+  const auto area_of = [](const TriMesh& mesh) {
+    double sum = 0;
+    for (const Triangle& t : mesh.triangles) sum += area_normal(mesh, t).z / 2;
+    return sum;
+  };
+  BuildOptions options;
+  options.metric = MetricKind::lt;
+  options.placement = Placement::full;
+  ProgressiveMesh pm(build_progressive_mesh(disk, options).record);
+  for (const std::size_t n : {150u, 100u, 50u, 25u}) {
+    pm.set_faces(n);
+    EXPECT_NEAR(area_of(pm.extract()), area_of(disk), 1e-4 * area_of(disk)) << n;
   }
 }
 

@@ -182,6 +182,49 @@ TEST(ProgressiveMesh, ChartsKeepTheirArea) {
   EXPECT_GT(n_levels, pm.n_splits() / 2);
 }
 
+// Full-edge collapses too: the line between two charts of a flat grid stays where it is.
+TEST(ProgressiveMesh, ChartBordersStayWhenBothEndsMove) {
+  TriMesh grid = make_flat_grid(12);
+  grid.material_names = {"left", "right"};
+  for (const Triangle& t : grid.triangles) {
+    float x = 0;
+    for (const std::uint32_t v : t) x += grid.positions[v].x / 3;
+    grid.materials.push_back(x > 6);
+    for (const std::uint32_t v : t)
+      grid.texcoords.emplace_back(grid.positions[v].x + (x > 6 ? 10.0f : 0.0f),
+                                  grid.positions[v].y);
+  }
+  for (const Way& way : {kWays[1], kWays[2]}) {
+    ProgressiveMesh pm(build_progressive_mesh(grid, options_of(way)).record);
+    for (std::size_t n = 280; n >= 60; n -= 10) {
+      pm.set_faces(n);
+      const TriMesh mesh = pm.extract();
+      double left = 0;
+      for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        if (mesh.materials[t] == 0) left += area_normal(mesh, mesh.triangles[t]).z / 2;
+        for (std::size_t c = 3 * t; c < 3 * t + 3; ++c)
+          EXPECT_EQ(mesh.texcoords[c].x > 9.5f, mesh.materials[t] == 1);
+      }
+      EXPECT_NEAR(left, 72, 1e-3) << n;
+    }
+  }
+}
+
+// Vertices that a file has split at chart borders collapse as one.
+TEST(ProgressiveMesh, SplitVerticesAreWelded) {
+  for (const Way& way : kWays) {
+    const TriMesh whole = make_textured_sphere(16);
+    const BuildResult a = build_progressive_mesh(whole, options_of(way));
+    const BuildResult b = build_progressive_mesh(split_at_charts(whole), options_of(way));
+    EXPECT_EQ(a.n_welded, 0u);
+    EXPECT_GT(b.n_welded, 10u);
+    ASSERT_EQ(a.record.splits.size(), b.record.splits.size());
+    for (std::size_t i = 0; i < a.record.splits.size(); ++i)
+      ASSERT_EQ(a.record.splits[i].cost, b.record.splits[i].cost);
+    EXPECT_EQ(a.record.born, b.record.born);
+  }
+}
+
 TEST(ProgressiveMesh, SizeDoesNotMatter) {
   for (const Way& way : kWays) {
     const TriMesh mesh = make_noisy_sphere(3, 0.1, 9);
