@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "mesh/closest_point.h"
 #include "pm/nearest.h"
 
 namespace viewcell {
@@ -170,7 +171,7 @@ void CollapseMap::choose_by_distance() {
   double best = std::numeric_limits<double>::infinity();
   u_after_ = glm::dvec3(best);
   for (std::size_t j = 1; j + 1 < rim_.size(); ++j) {
-    const glm::dvec3 p = closest_on_triangle(u_at_, rim_[0].at, rim_[j].at, rim_[j + 1].at);
+    const glm::dvec3 p = closest_point_on_triangle(u_at_, rim_[0].at, rim_[j].at, rim_[j + 1].at);
     const double distance2 = glm::dot(p - u_at_, p - u_at_);
     if (!(distance2 < best)) continue;
     best = distance2;

@@ -31,7 +31,7 @@ struct CollapseTrace {
 };
 
 /// Triangles over vertices; a corner c = 3 * triangle + k, and the corners of each vertex
-/// form a linked list. Memory: 24 bytes a triangle, 4 a vertex, and the positions that it refers
+/// form a linked list. Memory: 24 bytes a triangle, 8 a vertex, and the positions that it refers
 /// to.
 class CollapseMesh {
  public:
@@ -45,7 +45,6 @@ class CollapseMesh {
   bool has_triangles(std::uint32_t v) const { return head_[v] != kEnd; }
   /// The vertex at a corner of a live triangle, or of one that died, when it did.
   std::uint32_t vertex_at(std::uint32_t corner) const { return corners_[corner].vertex; }
-  bool is_alive(std::uint32_t triangle) const { return alive_[triangle]; }
 
   /// Calls visit(a, b) for every triangle (v, a, b) of v, in that winding.
   template <typename Visit>

@@ -8,9 +8,9 @@
 
 namespace viewcell {
 
-/// What cost() is made of: the largest distance of matched points, or the root of the integral of
-/// squared distances over the input's surface [Chen06 4.2.2 has a mean over texels instead, which
-/// weighs texture area, trap 27].
+/// What cost() is made of: the largest distance of matched points, or the mean of their squares
+/// over the input's surface [Chen06 4.2.2 has a mean over texels instead, which weighs texture
+/// area, trap 27].
 enum class Measure { max, mean };
 
 struct MappingOptions {

@@ -2,14 +2,8 @@
 # Types broken input at the tools that make and bake parks: the right exit code, one line on stderr
 # that names file and place, nothing written. First argument: the folder of binaries.
 set -euo pipefail
-here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
-bin=$1
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-log=$work/log
-mkdir "$log" "$work/run"
-cd "$work/run"
-. "$here/lib.sh"
+. "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
+start "$1"
 
 bake whole
 cp -r park p

@@ -2,14 +2,8 @@
 # Types the whole chain on a scene of two balls: it works, is resumed, may be cut in slices, and
 # gives the same bytes for any number of threads. First argument: the folder of binaries.
 set -euo pipefail
-here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
-bin=$1
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-log=$work/log
-mkdir "$log" "$work/run"
-cd "$work/run"
-. "$here/lib.sh"
+. "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
+start "$1"
 
 bake bundle
 # reported KEY: its number in the report that the last command printed.

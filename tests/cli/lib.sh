@@ -1,5 +1,16 @@
-# Sourced by the scripts beside it: expectations of a typed command, and a scene of two balls that
-# bakes in a second. The caller stands in a folder of its own; $log is a folder outside it.
+# Sourced by the scripts beside it: a folder to work in, expectations of a typed command, and a scene of
+# two balls that bakes in a second.
+
+# start BIN: sets $bin, the folder of binaries, and goes to an empty folder that is removed at the end;
+# $log is a folder outside it.
+start() {
+  bin=$(cd "$1" && pwd)
+  work=$(mktemp -d)
+  trap 'rm -rf "$work"' EXIT
+  log=$work/log
+  mkdir "$log" "$work/run"
+  cd "$work/run"
+}
 
 fail() { echo "$(basename "$0"): $*" >&2; exit 1; }
 

@@ -2,14 +2,8 @@
 # Types meshdist's commands and holds exit codes, streams, reports and the coloured mesh. First
 # argument: the folder of binaries.
 set -euo pipefail
-here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
-bin=$1
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-log=$work/log
-mkdir "$log" "$work/run"
-cd "$work/run"
-. "$here/lib.sh"
+. "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
+start "$1"
 meshdist=$bin/meshdist
 
 ball 24 1 >a.off

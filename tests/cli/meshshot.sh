@@ -2,14 +2,8 @@
 # Types meshshot's commands: pictures, the sheet, the report, frames, exit codes. First argument: the
 # folder of binaries.
 set -euo pipefail
-here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
-bin=$1
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-log=$work/log
-mkdir "$log" "$work/run"
-cd "$work/run"
-. "$here/lib.sh"
+. "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
+start "$1"
 
 shot=("$bin/meshshot" --size 64 --views 3)
 

@@ -2,14 +2,8 @@
 # Types pmesh's commands and holds exit codes, streams, reports and bytes. First argument: the folder
 # of binaries.
 set -euo pipefail
-here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
-bin=$1
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-log=$work/log
-mkdir "$log" "$work/run"
-cd "$work/run"
-. "$here/lib.sh"
+. "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
+start "$1"
 pmesh=$bin/pmesh
 
 ball 24 1 >ball.off

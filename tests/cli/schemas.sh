@@ -8,13 +8,8 @@ python3 -c 'import jsonschema' 2>/dev/null || {
   echo "schemas.sh: skipped, there is no python3 with jsonschema"
   exit 0
 }
-bin=$1
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-log=$work/log
-mkdir "$log" "$work/run"
-cd "$work/run"
 . "$here/lib.sh"
+start "$1"
 
 bake bundle
 expect 0 "$bin/play" bundle --path park/path.json --frames 2 --size 64x64 \

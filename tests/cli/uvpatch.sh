@@ -2,15 +2,9 @@
 # Types uvpatch's commands: counts, files, reports, the same bytes, broken input. First argument: the
 # folder of binaries.
 set -euo pipefail
-here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
-bin=$1
+. "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
+start "$1"
 uvpatch=$bin/uvpatch
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-log=$work/log
-mkdir "$log" "$work/run"
-cd "$work/run"
-. "$here/lib.sh"
 key() { sed -n "s/.*\"$1\": \([^,]*\),*$/\1/p" "$log/out"; }  # of the report on stdout
 is() { [ "$(key "$1")" = "$2" ] || fail "$1 is $(key "$1"), not $2"; }
 

@@ -6,9 +6,9 @@
 #include <optional>
 
 #include "base/error.h"
+#include "mesh/closest_point.h"
 #include "mesh/surface_distance.h"
 #include "pm/build.h"
-#include "pm/nearest.h"
 #include "pm/shapes.h"
 
 namespace viewcell {
@@ -78,10 +78,10 @@ struct Surface {
   double distance(const glm::dvec3& p) const {
     double best = 1e30;
     for (const Triangle& t : triangles)
-      best =
-          std::min(best, glm::distance(p, closest_on_triangle(p, glm::dvec3(mesh.positions[t[0]]),
-                                                              glm::dvec3(mesh.positions[t[1]]),
-                                                              glm::dvec3(mesh.positions[t[2]]))));
+      best = std::min(
+          best, glm::distance(p, closest_point_on_triangle(p, glm::dvec3(mesh.positions[t[0]]),
+                                                           glm::dvec3(mesh.positions[t[1]]),
+                                                           glm::dvec3(mesh.positions[t[2]]))));
     return best;
   }
   // Points of all triangles, n to a side.
