@@ -52,6 +52,10 @@ struct Recorded {
   }();
 
   float cost(std::uint32_t u, std::uint32_t v) { return metric.cost(u, v); }
+  float cost_at_least(std::uint32_t u, std::uint32_t v) requires requires(Metric m) {
+    m.cost_at_least(u, v);
+  }
+  { return metric.cost_at_least(u, v); }
   // Along the border of two charts the place stays on the edge, whatever the metric knows of
   // charts.
   glm::vec3 place(std::uint32_t u, std::uint32_t v) requires requires(Metric m) { m.place(u, v); }

@@ -40,6 +40,7 @@ inline Refusal as_refusal(Refusal refusal) {
 
 /// What a metric has:
 /// - float cost(u, v): of collapsing u into v, +infinity for never;
+/// - float cost_at_least(u, v), if there is one: something cheaper that cost(u, v) is not below;
 /// - bool or Refusal allows(mesh, u, v): a last check before the collapse is made;
 /// - void traced(u, v, trace), if there is one: told what happened to the triangles;
 /// - void collapsed(u, v): told after it.
@@ -97,6 +98,17 @@ class CollapseLoop {
 
  private:
   static constexpr float kNever = std::numeric_limits<float>::infinity();
+  struct Candidate {
+    float cost;
+    std::uint32_t v;
+    bool is_exact;  // otherwise the cost is not below this
+    // What is not exact comes first, so that nothing is taken before an equal cost is known.
+    bool operator<(const Candidate& o) const {
+      if (cost != o.cost) return cost < o.cost;
+      return is_exact != o.is_exact ? o.is_exact : v < o.v;
+    }
+  };
+  static constexpr bool kEstimates = requires(Metric m) { m.cost_at_least(0u, 0u); };
   static constexpr bool kPlaces = requires(Metric m) { m.place(0u, 0u); };
   static constexpr int reach() {
     if constexpr (requires { Metric::kReach; }) return Metric::kReach;
@@ -113,7 +125,8 @@ class CollapseLoop {
 
   float metric_cost(std::uint32_t u, std::uint32_t v) {
     ++n_costs_;
-    return metric_.cost(u, v);
+    const float cost = metric_.cost(u, v);
+    return cost < kNever ? cost : kNever;  // NaN is never, too
   }
 
   Refusal check(std::uint32_t u, std::uint32_t v, const CollapseLimits& limits) {
@@ -127,37 +140,54 @@ class CollapseLoop {
     return refusal != Refusal::none ? refusal : as_refusal(metric_.allows(mesh_, u, v));
   }
 
-  // Puts u into the heap with its cheapest target, legal or not.
-  void choose(std::uint32_t u) {
-    float best = kNever;
-    stale_[u] = false;
+  // The targets of u, with the least that each can cost.
+  void gather_candidates(std::uint32_t u) {
     mesh_.ring(u, ring_);
+    candidates_.clear();
     for (const std::uint32_t v : ring_) {
       if (!is_candidate(u, v)) continue;
-      const float cost = metric_cost(u, v);
-      if (cost < best || (cost == best && cost < kNever && v < target_[u])) {
-        best = cost;
-        target_[u] = v;
-      }
+      if constexpr (kEstimates)
+        candidates_.push_back({metric_.cost_at_least(u, v), v, false});
+      else
+        candidates_.push_back({metric_cost(u, v), v, true});
     }
-    best < kNever ? heap_.set(u, best) : heap_.erase(u);
+  }
+
+  // Takes the next cheapest candidate out; its cost is kNever when there is none. Costs are
+  // evaluated as far as that needs.
+  Candidate pop_candidate(std::uint32_t u) {
+    while (!candidates_.empty()) {
+      Candidate& least = *std::min_element(candidates_.begin(), candidates_.end());
+      if (!least.is_exact && least.cost < kNever) {
+        least = {metric_cost(u, least.v), least.v, true};
+        continue;
+      }
+      const Candidate out = std::exchange(least, candidates_.back());
+      candidates_.pop_back();
+      return out;
+    }
+    return {kNever, 0, true};
+  }
+
+  // Puts u into the heap with its cheapest target, legal or not.
+  void choose(std::uint32_t u) {
+    stale_[u] = false;
+    gather_candidates(u);
+    enter(u, pop_candidate(u));
   }
 
   // Puts u into the heap with its cheapest legal target; without one, takes it out.
   void choose_legal(std::uint32_t u, const CollapseLimits& limits) {
-    mesh_.ring(u, ring_);
-    sorted_.clear();
-    for (const std::uint32_t v : ring_) {
-      if (!is_candidate(u, v)) continue;
-      if (const float cost = metric_cost(u, v); cost < kNever) sorted_.emplace_back(cost, v);
-    }
-    std::sort(sorted_.begin(), sorted_.end());
-    for (const auto& [cost, v] : sorted_) {
-      if (check(u, v, limits) != Refusal::none) continue;
-      target_[u] = v;
-      return heap_.set(u, cost);
-    }
-    heap_.erase(u);
+    gather_candidates(u);
+    Candidate next = pop_candidate(u);
+    while (next.cost < kNever && check(u, next.v, limits) != Refusal::none) next = pop_candidate(u);
+    enter(u, next);
+  }
+
+  void enter(std::uint32_t u, const Candidate& candidate) {
+    if (!(candidate.cost < kNever)) return heap_.erase(u);
+    target_[u] = candidate.v;
+    heap_.set(u, candidate.cost);
   }
 
   void make(std::uint32_t u, std::uint32_t v, bool lazy) {
@@ -197,7 +227,7 @@ class CollapseLoop {
   std::vector<std::uint32_t> target_;  // vertex -> the vertex that it would collapse into
   std::vector<bool> stale_;            // its key may be wrong
   std::vector<std::uint32_t> ring_, around_;
-  std::vector<std::pair<float, std::uint32_t>> sorted_;
+  std::vector<Candidate> candidates_;
   CollapseTrace trace_;
   glm::vec3 place_{0};
   std::size_t n_costs_ = 0;

@@ -6,22 +6,10 @@
 #include <span>
 #include <vector>
 
-#include "pm/wedge_mesh.h"
+#include "pm/collapse_star.h"
+#include "pm/vector_box.h"
 
 namespace viewcell {
-
-/// A box of vectors, in float, rounded outwards by whoever makes it.
-struct VectorBox {
-  glm::vec3 lo{0}, hi{0};  ///< the zero vector alone
-  void add(const VectorBox& b) { lo = glm::min(lo, b.lo), hi = glm::max(hi, b.hi); }
-  /// Of sums of one vector from each.
-  VectorBox plus(const VectorBox& b) const { return {lo + b.lo, hi + b.hi}; }
-  /// Squared length of the longest vector.
-  float reach2() const {
-    const glm::vec3 far = glm::max(glm::abs(lo), glm::abs(hi));
-    return glm::dot(far, far);
-  }
-};
 
 /// How points of the two surfaces are matched.
 enum class Matching {
@@ -31,10 +19,14 @@ enum class Matching {
 
 /// A part of one old face that goes to a part of one new face.
 struct MapCell {
-  std::uint32_t old_face, new_face;
+  std::uint32_t old_face, new_face;  ///< places in CollapseMap::faces()
   VectorBox shift;  ///< of old point minus new point; linear between the corners, so it holds all
-  double area = 0;  ///< of its part of the old face
-  glm::dvec3 mean{0};  ///< of the shift, over that area
+};
+
+/// Of the points of a cell, over its part of the old face.
+struct CellMoments {
+  double area = 0;
+  glm::dvec3 mean{0};  ///< of the shift
   double square = 0;   ///< mean squared length of the shift
 };
 
@@ -55,71 +47,91 @@ struct MapCell {
 /// On a boundary of the mesh or of a texture chart u goes to the new boundary edge.
 class CollapseMap {
  public:
-  /// Keeps references. with_moments: cells have area, mean and square. Not thread-safe.
+  /// Keeps references. with_moments: moments() are made. Not thread-safe.
   CollapseMap(const CollapseMesh& mesh, const WedgeTable& wedges,
               std::span<const glm::vec3> positions, std::span<const glm::vec2> texcoords,
               Matching matching, bool with_moments)
       : mesh_(mesh),
-        wedges_(wedges),
-        positions_(positions),
-        texcoords_(texcoords),
+        star_(mesh, wedges, positions, texcoords),
         matching_(matching),
         with_moments_(with_moments) {}
 
-  /// Lays out the map of u -> v. False when there is none: the star of u is no fan, v is not at
-  /// its boundary's end, or a part of the surface has no face to go to.
+  /// Finds where u goes. False when there is no map: the star of u is no fan, v is not at its
+  /// boundary's end, or a part of the surface has no face to go to.
+  bool place(std::uint32_t u, std::uint32_t v);
+  /// The same, and lays out the cells.
   bool lay(std::uint32_t u, std::uint32_t v);
+  /// To be called when the mesh has changed.
+  void forget() { star_.forget(), placed_.clear(), places_.clear(); }
+
+  /// Of the last place() or lay(): calls visit(face, shift) for every sector of the star, with the
+  /// face that takes u in it (a place in faces()) and how far u is from there.
+  template <typename Visit>
+  void for_each_place(Visit&& visit) const {
+    for (const Place& p : last_) visit(p.face, -p.after);
+  }
+  /// The faces of u, by their numbers in the mesh, and those that take over from lone triangles.
+  std::span<const std::uint32_t> faces() const { return star_.faces(); }
   /// Of the last lay().
   const std::vector<MapCell>& cells() const { return cells_; }
+  const std::vector<CellMoments>& moments() const { return moments_; }
   /// The longest distance of a corner's two points.
   double largest_shift() const;
-  /// Whether every new face of the last lay() keeps the sign of the old one's texture area.
-  bool keeps_texture_orientation() const { return keeps_orientation_; }
+  /// Whether every new face of the last place() or lay() keeps the sign of the old one's texture
+  /// area.
+  bool keeps_texture_orientation() const;
 
  private:
-  // One triangle (u, a, b) of the star.
-  struct Spoke {
-    std::uint32_t face, a, b, wedge_u, wedge_a, wedge_b;
+  // Where u goes in one sector: into the new face (v, rim middle, rim middle + 1), counted from v.
+  struct Place {
+    std::size_t v = 0;  // of the sector's rim
+    int step = 1;       // the way that the sector is walked from v
+    std::size_t middle = 0;
+    std::uint32_t face = 0;
+    glm::dvec3 after{0};  // u's new place, relative to u
   };
-  // A neighbour of u in a fan that starts at v.
-  struct Rim {
-    std::uint32_t vertex, wedge, face;  // face: from this neighbour to the next
-    glm::dvec3 at;
-    glm::dvec2 uv;
+  struct Placed {  // the places of all sectors for one target
+    std::uint32_t v;
+    bool is_legal;
+    std::size_t first;
+  };
+  // An old edge u-w and the new edge v-w.
+  struct Ray {
+    glm::dvec3 to, from_v;  // w relative to u, and to v
+    double to2, from_v2;    // squared lengths
+    double to_v, from_v_v;  // dot products with v relative to u
+    glm::dvec2 uv;          // w relative to u
+    std::uint32_t face;     // to the next
   };
   struct Corner {
-    glm::dvec3 before, after;
+    glm::dvec3 shift, before;  // relative to u
   };
 
-  bool gather(std::uint32_t u);
-  bool order_sector(std::size_t first, std::size_t last, std::uint32_t v);
-  bool lay_sector(std::uint32_t u, std::uint32_t v);
-  bool choose_face();
-  void choose_by_texture();
-  void choose_by_distance();
-  void choose_on_edge();
-  Corner cross(std::size_t i, std::size_t j) const;
-  Corner corner(std::size_t i, std::size_t j, bool is_left) const;
+  bool place_sector(const CollapseStar::Sector& sector, std::uint32_t v, Place& place) const;
+  void choose_by_texture(const CollapseStar::Sector& sector, Place& place) const;
+  void choose_by_distance(const CollapseStar::Sector& sector, Place& place) const;
+  void choose_on_edge(const CollapseStar::Sector& sector, Place& place) const;
+  bool lay_sector(const CollapseStar::Sector& sector, const Place& place, std::uint32_t v);
+  bool lay_lone(const CollapseStar::Sector& sector, const Place& place, std::uint32_t v);
+  void make_rays(const CollapseStar::Sector& sector, const Place& place);
+  Corner cross(const Ray& old_edge, const Ray& new_edge) const;
+  void add_side(std::size_t middle, bool is_left, const glm::dvec3& u_after);
   void add_cell(std::uint32_t old_face, std::uint32_t new_face, std::span<const Corner> corners);
-  void add_side(bool is_left);
-  void check_orientation();
 
   const CollapseMesh& mesh_;
-  const WedgeTable& wedges_;
-  std::span<const glm::vec3> positions_;
-  std::span<const glm::vec2> texcoords_;
+  CollapseStar star_;
   Matching matching_;
   bool with_moments_;
+  std::vector<Placed> placed_;  // of the star's vertex
+  std::vector<Place> places_;
+  std::span<const Place> last_;
   std::vector<MapCell> cells_;
+  std::vector<CellMoments> moments_;
   double largest2_ = 0;
-  bool keeps_orientation_ = true;
-  // of the sector that is being laid out
-  std::vector<Spoke> spokes_;
-  std::vector<Rim> rim_;
-  bool is_closed_ = false;
-  glm::dvec3 u_at_{0}, u_after_{0};
-  glm::dvec2 u_uv_{0};
-  std::size_t middle_ = 0;  // u goes to the new face (v, rim[middle], rim[middle + 1])
+  std::vector<Ray> rays_;
+  glm::dvec3 to_v_{0};
+  glm::dvec2 uv_to_v_{0};
+  std::vector<Corner> row_, next_row_;
 };
 
 }  // namespace viewcell

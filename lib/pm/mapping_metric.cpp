@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace viewcell {
 
@@ -30,56 +31,59 @@ MappingMetric::MappingMetric(const CollapseMesh& mesh, const WedgeTable& wedges,
 // What the new faces of the last map would deviate: each cell's own shift and what its old face
 // had.
 void MappingMetric::add_up() {
-  next_.clear();
+  const auto faces = map_.faces();
+  next_.assign(faces.size(), {});
   for (const MapCell& cell : map_.cells()) {
-    const VectorBox box = boxes_[cell.old_face].plus(cell.shift);
-    const auto found = std::find_if(next_.begin(), next_.end(),
-                                    [&](const Deviation& d) { return d.face == cell.new_face; });
-    if (found != next_.end())
-      found->box.add(box);
-    else
-      next_.push_back({cell.new_face, box});
+    const VectorBox box = boxes_[faces[cell.old_face]].plus(cell.shift);
+    Next& next = next_[cell.new_face];
+    next.is_new ? next.box.add(box) : void(next.box = box);
+    next.is_new = true;
   }
-}
-
-MappingMetric::NextMoments& MappingMetric::moments_of(std::uint32_t face) {
-  for (NextMoments& next : next_moments_)
-    if (next.face == face) return next;
-  return next_moments_.emplace_back(NextMoments{face, {}});
 }
 
 // Each cell takes its share of the old face's points to the new face. Returns the root of what that
 // adds to the integral of squares.
 float MappingMetric::add_up_moments() {
-  next_moments_.clear();
-  old_areas_.clear();
+  const auto faces = map_.faces();
+  const std::vector<CellMoments>& cells = map_.moments();
+  next_.assign(faces.size(), {});
   double before = 0, after = 0;
-  for (const MapCell& cell : map_.cells()) {
-    const auto found = std::find_if(old_areas_.begin(), old_areas_.end(),
-                                    [&](const OldArea& o) { return o.face == cell.old_face; });
-    if (found != old_areas_.end()) {
-      found->area += cell.area;
-    } else {
-      old_areas_.push_back({cell.old_face, cell.area});
-      before += moments_[cell.old_face].square;
-    }
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    const std::uint32_t face = map_.cells()[i].old_face;
+    if (!std::exchange(next_[face].is_old, true)) before += moments_[faces[face]].square;
+    next_[face].old_area += cells[i].area;
   }
-  for (const MapCell& cell : map_.cells()) {
-    const auto whole = std::find_if(old_areas_.begin(), old_areas_.end(),
-                                    [&](const OldArea& o) { return o.face == cell.old_face; });
-    const bool is_whole = cell.old_face == cell.new_face && cell.area == 0 && cell.square == 0;
-    const double share = whole->area > 0 ? cell.area / whole->area : (is_whole ? 1 : 0);
-    const Moments& old = moments_[cell.old_face];
-    Moments& to = moments_of(cell.new_face).moments;
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    const auto& [old_face, new_face, shift] = map_.cells()[i];
+    const CellMoments& cell = cells[i];
+    const double whole = next_[old_face].old_area;
+    const bool is_whole = old_face == new_face && cell.area == 0 && cell.square == 0;
+    const double share = whole > 0 ? cell.area / whole : (is_whole ? 1 : 0);
+    const Moments& old = moments_[faces[old_face]];
+    Next& next = next_[new_face];
+    next.is_new = true;
     const double area = share * old.area;
-    to.area += area;
-    to.sum += share * old.sum + area * cell.mean;
+    next.moments.area += area;
+    next.moments.sum += share * old.sum + area * cell.mean;
     const double square =
         share * (old.square + 2 * glm::dot(old.sum, cell.mean)) + area * cell.square;
-    to.square += square;
+    next.moments.square += square;
     after += square;
   }
   return static_cast<float>(std::sqrt(std::max(after - before, 0.0) / area_));
+}
+
+float MappingMetric::cost_at_least(std::uint32_t u, std::uint32_t v) {
+  if (options_.measure == Measure::mean) return 0;
+  if (!map_.place(u, v)) return std::numeric_limits<float>::infinity();
+  // what the point at u alone would deviate
+  float reach2 = 0;
+  map_.for_each_place([&](std::uint32_t face, const glm::dvec3& shift) {
+    VectorBox box{glm::vec3(shift), glm::vec3(shift)};
+    if (options_.total) box = box.plus(boxes_[map_.faces()[face]]);
+    reach2 = std::max(reach2, box.reach2());
+  });
+  return std::sqrt(reach2) * (1 - 1e-6f);
 }
 
 float MappingMetric::cost(std::uint32_t u, std::uint32_t v) {
@@ -87,7 +91,7 @@ float MappingMetric::cost(std::uint32_t u, std::uint32_t v) {
   if (options_.measure == Measure::mean) {
     if (options_.total) return add_up_moments();
     double sum = 0;
-    for (const MapCell& cell : map_.cells()) sum += cell.area * cell.square;
+    for (const CellMoments& cell : map_.moments()) sum += cell.area * cell.square;
     return static_cast<float>(std::sqrt(sum / area_));
   }
   if (!options_.total) return static_cast<float>(map_.largest_shift());
@@ -97,7 +101,7 @@ float MappingMetric::cost(std::uint32_t u, std::uint32_t v) {
 
 float MappingMetric::next_reach() const {
   float reach2 = 0;
-  for (const Deviation& d : next_) reach2 = std::max(reach2, d.box.reach2());
+  for (const Next& next : next_) reach2 = std::max(reach2, next.box.reach2());
   return std::sqrt(reach2);
 }
 
@@ -110,13 +114,16 @@ Refusal MappingMetric::allows(const CollapseMesh&, std::uint32_t u, std::uint32_
 }
 
 void MappingMetric::collapsed(std::uint32_t, std::uint32_t) {
-  if (!options_.total) return;
-  if (options_.measure == Measure::mean) {
-    for (const NextMoments& next : next_moments_) moments_[next.face] = next.moments;
-    return;
+  const auto faces = map_.faces();
+  for (std::size_t i = 0; options_.total && i < next_.size(); ++i) {
+    if (!next_[i].is_new) continue;
+    if (options_.measure == Measure::mean)
+      moments_[faces[i]] = next_[i].moments;
+    else
+      boxes_[faces[i]] = next_[i].box;
   }
-  for (const Deviation& d : next_) boxes_[d.face] = d.box;
-  bound_ = std::max(bound_, next_reach());
+  if (options_.total && options_.measure == Measure::max) bound_ = std::max(bound_, next_reach());
+  map_.forget();
 }
 
 }  // namespace viewcell

@@ -38,6 +38,8 @@ class MappingMetric {
                 std::span<const Triangle> triangles, const MappingOptions& options = {});
 
   float cost(std::uint32_t u, std::uint32_t v);
+  /// cost(u, v) is not below this; a fraction of its time.
+  float cost_at_least(std::uint32_t u, std::uint32_t v);
   /// Not when a face would turn over in the texture (Refusal::fold).
   Refusal allows(const CollapseMesh&, std::uint32_t u, std::uint32_t v);
   void collapsed(std::uint32_t u, std::uint32_t v);
@@ -48,36 +50,28 @@ class MappingMetric {
   float next_reach() const;
 
  private:
-  struct Deviation {
-    std::uint32_t face;
-    VectorBox box;
-  };
   // Deviations of the points of the input that a face stands for, over their area.
   struct Moments {
     double area = 0, square = 0;  // square: integral of the squared length
     glm::dvec3 sum{0};            // integral
   };
-  struct NextMoments {
-    std::uint32_t face;
+  // Of a face of the last map, by its place in CollapseMap::faces().
+  struct Next {
+    bool is_old = false, is_new = false;
+    VectorBox box;
     Moments moments;
+    double old_area = 0;  // of the cells of the old face
   };
   void add_up();
   float add_up_moments();
-  NextMoments& moments_of(std::uint32_t face);
 
   MappingOptions options_;
   CollapseMap map_;
   std::vector<VectorBox> boxes_;  // by face: deviations from the input
-  std::vector<Deviation> next_;   // of the faces of the last map
   std::vector<Moments> moments_;  // by face, for Measure::mean
-  std::vector<NextMoments> next_moments_;
-  struct OldArea {
-    std::uint32_t face;
-    double area;
-  };
-  std::vector<OldArea> old_areas_;  // of the last map's cells, by old face
-  float bound_ = -1;                // until there is one
-  double area_ = 1;                 // of the whole surface
+  std::vector<Next> next_;
+  float bound_ = -1;  // until there is one
+  double area_ = 1;   // of the whole surface
 };
 
 }  // namespace viewcell

@@ -13,28 +13,30 @@ inline double closest_on_segment(const glm::dvec3& p, const glm::dvec3& a, const
   return length2 > 0 ? std::clamp(glm::dot(p - a, edge) / length2, 0.0, 1.0) : 0.0;
 }
 
-/// s and t in [0, 1] of the points of segments a b and c d that are nearest to each other; where
-/// the segments are parallel, of one such pair. [Ericson 2005, 5.1.9]
-inline void closest_on_segments(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c,
-                                const glm::dvec3& d, double& s, double& t) {
-  const glm::dvec3 u = b - a, v = d - c, r = a - c;
-  const double uu = glm::dot(u, u), vv = glm::dot(v, v), uv = glm::dot(u, v);
-  const double ur = glm::dot(u, r), vr = glm::dot(v, r);
+/// Dot products of two segments' directions a and b and of r, from the second's start to the
+/// first's.
+struct SegmentDots {
+  double aa, bb, ab, ar, br;
+};
+
+/// s and t in [0, 1] of the points of the segments that are nearest to each other; where the
+/// segments are parallel, of one such pair. [Ericson 2005, 5.1.9]
+inline void closest_on_segments(const SegmentDots& d, double& s, double& t) {
   s = t = 0;
-  if (!(uu > 0) || !(vv > 0)) {
-    if (uu > 0) s = std::clamp(-ur / uu, 0.0, 1.0);
-    if (vv > 0) t = std::clamp(vr / vv, 0.0, 1.0);
+  if (!(d.aa > 0) || !(d.bb > 0)) {
+    if (d.aa > 0) s = std::clamp(-d.ar / d.aa, 0.0, 1.0);
+    if (d.bb > 0) t = std::clamp(d.br / d.bb, 0.0, 1.0);
     return;
   }
-  const double det = uu * vv - uv * uv;
-  if (det > 1e-14 * uu * vv) s = std::clamp((uv * vr - ur * vv) / det, 0.0, 1.0);
-  t = (uv * s + vr) / vv;
+  const double det = d.aa * d.bb - d.ab * d.ab;
+  if (det > 1e-14 * d.aa * d.bb) s = std::clamp((d.ab * d.br - d.ar * d.bb) / det, 0.0, 1.0);
+  t = (d.ab * s + d.br) / d.bb;
   if (t < 0) {
     t = 0;
-    s = std::clamp(-ur / uu, 0.0, 1.0);
+    s = std::clamp(-d.ar / d.aa, 0.0, 1.0);
   } else if (t > 1) {
     t = 1;
-    s = std::clamp((uv - ur) / uu, 0.0, 1.0);
+    s = std::clamp((d.ab - d.ar) / d.aa, 0.0, 1.0);
   }
 }
 

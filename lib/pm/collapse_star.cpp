@@ -1,0 +1,87 @@
+#include "pm/collapse_star.h"
+
+#include <algorithm>
+
+namespace viewcell {
+
+bool CollapseStar::gather(std::uint32_t u) {
+  if (of_ == u) return is_legal_;
+  of_ = u;
+  is_legal_ = false;
+  spokes_.clear(), rim_.clear(), sectors_.clear(), faces_.clear();
+  mesh_.for_each_corner(u, [&](std::uint32_t c) {
+    const std::uint32_t t = 3 * (c / 3), a = t + (c + 1 - t) % 3, b = t + (c + 2 - t) % 3;
+    spokes_.push_back({c / 3, mesh_.vertex_at(a), mesh_.vertex_at(b), wedges_.at(c), wedges_.at(a),
+                       wedges_.at(b)});
+  });
+  // by texture chart; the order within does not matter
+  const auto chart_before = [](const Spoke& x, const Spoke& y) { return x.wedge_u < y.wedge_u; };
+  if (!std::is_sorted(spokes_.begin(), spokes_.end(), chart_before))
+    std::stable_sort(spokes_.begin(), spokes_.end(), chart_before);
+  rim_.reserve(2 * spokes_.size());  // sectors point into it
+  for (std::size_t first = 0, last = 0; first < spokes_.size(); first = last) {
+    while (last < spokes_.size() && spokes_[last].wedge_u == spokes_[first].wedge_u) ++last;
+    if (!order(first, last)) return false;
+  }
+  return is_legal_ = !spokes_.empty();
+}
+
+// Makes a sector of spokes [first, last).
+bool CollapseStar::order(std::size_t first, std::size_t last) {
+  const auto find = [&](std::uint32_t Spoke::*side, std::uint32_t vertex) {
+    std::size_t i = first;
+    while (i < last && spokes_[i].*side != vertex) ++i;
+    return i;
+  };
+  // back to the beginning of an open fan, or once around
+  std::size_t at = first;
+  for (std::size_t n = first; n < last; ++n) {
+    const std::size_t back = find(&Spoke::b, spokes_[at].a);
+    if (back == last) break;
+    at = back;
+  }
+  const std::uint32_t start = spokes_[at].a;
+  const std::size_t begin = rim_.size();
+  bool is_closed = false;
+  for (std::size_t n = first; n < last; ++n) {
+    const Spoke& spoke = spokes_[at];
+    rim_.push_back({spoke.a, spoke.wedge_a, static_cast<std::uint32_t>(faces_.size()), {}, {}});
+    faces_.push_back(spoke.face);
+    if (n + 1 < last) {
+      at = find(&Spoke::a, spoke.b);
+      if (at == last) return false;  // several fans
+    } else {
+      is_closed = spoke.b == start;
+      if (!is_closed) rim_.push_back({spoke.b, spoke.wedge_b, 0, {}, {}});
+    }
+  }
+  if (!meets_each_once(begin) || (is_closed && rim_.size() - begin < 3)) return false;
+  locate(begin, spokes_[first].wedge_u);
+  sectors_.push_back({std::span<const Rim>(rim_).subspan(begin), is_closed});
+  return true;
+}
+
+bool CollapseStar::meets_each_once(std::size_t first) const {
+  for (std::size_t i = first; i < rim_.size(); ++i)
+    for (std::size_t j = i + 1; j < rim_.size(); ++j)
+      if (rim_[i].vertex == rim_[j].vertex) return false;
+  return true;
+}
+
+void CollapseStar::locate(std::size_t first, std::uint32_t wedge_u) {
+  const glm::dvec3 u(positions_[of_]);
+  for (std::size_t i = first; i < rim_.size(); ++i) {
+    rim_[i].to = glm::dvec3(positions_[rim_[i].vertex]) - u;
+    if (!texcoords_.empty())
+      rim_[i].uv = glm::dvec2(texcoords_[rim_[i].wedge]) - glm::dvec2(texcoords_[wedge_u]);
+  }
+}
+
+std::uint32_t CollapseStar::place_of(std::uint32_t face) {
+  const auto found = std::find(faces_.begin(), faces_.end(), face);
+  const auto place = static_cast<std::uint32_t>(found - faces_.begin());
+  if (found == faces_.end()) faces_.push_back(face);
+  return place;
+}
+
+}  // namespace viewcell
