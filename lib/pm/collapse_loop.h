@@ -75,7 +75,7 @@ class CollapseLoop {
     CollapseCounts counts;
     while (mesh_.n_triangles() > limits.target_triangles && !heap_.empty()) {
       const std::uint32_t u = heap_.top(), v = target_[u];
-      if (stale_[u] || (kReach > 1 && metric_cost(u, v) > heap_.key(u))) {
+      if (stale_[u] || (kReach > 1 && kPlaces && metric_cost(u, v) > heap_.key(u))) {
         choose(u);
         continue;
       }

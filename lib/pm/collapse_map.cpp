@@ -150,12 +150,12 @@ bool CollapseMap::lay_sector(const CollapseStar::Sector& sector, const Place& pl
   if (sector.rim.size() == 2) return lay_lone(sector, place, v);
   make_rays(sector, place);
   const std::size_t n = rays_.size(), m = place.middle;
-  const glm::dvec3 zero(0);
-  const std::array<Corner, 3> corners{
-      {{-place.after, zero}, {zero, rays_[m].to}, {zero, rays_[m + 1].to}}};
-  add_cell(place.face, place.face, corners);
-  add_side(m, true, place.after);
-  if (sector.is_closed) add_side(n - 2 - m, false, place.after);
+  const Double4 after = make_double4(place.after);
+  largest2_ = std::max(largest2_, dot(after, after));
+  const Corner at_u{-after, {}}, left{{}, rays_[m].to}, right{{}, rays_[m + 1].to};
+  add_cell({place.face, place.face}, {at_u, left, right, right});
+  add_side(m, true, after);
+  if (sector.is_closed) add_side(n - 2 - m, false, after);
   return true;
 }
 
@@ -173,10 +173,12 @@ bool CollapseMap::lay_lone(const CollapseStar::Sector& sector, const Place& plac
   });
   if (!found) return false;
   const std::uint32_t to = star_.place_of(heir);
-  const glm::dvec3 zero(0);
-  const std::array<Corner, 3> corners{{{-place.after, zero}, {zero, rim[0].to}, {zero, rim[1].to}}};
-  add_cell(rim.face(0), to, corners);
-  cells_.push_back({to, to, {}});
+  const Double4 after = make_double4(place.after);
+  largest2_ = std::max(largest2_, dot(after, after));
+  const Corner at_u{-after, {}}, left{{}, make_double4(rim[0].to)};
+  const Corner right{{}, make_double4(rim[1].to)};
+  add_cell({rim.face(0), to}, {at_u, left, right, right});
+  cells_.push_back({to, to, VectorBox{}});
   if (with_moments_) moments_.emplace_back();
   return true;
 }
@@ -185,25 +187,25 @@ bool CollapseMap::lay_lone(const CollapseStar::Sector& sector, const Place& plac
 void CollapseMap::make_rays(const CollapseStar::Sector& sector, const Place& place) {
   const Walk rim{sector, place.v, place.step};
   const std::size_t n = sector.rim.size() + (sector.is_closed ? 1 : 0);
-  to_v_ = rim[0].to;
+  to_v_ = make_double4(rim[0].to);
   uv_to_v_ = rim[0].uv;
   rays_.resize(n);
   for (std::size_t i = 0; i < n; ++i) {
     const CollapseStar::Rim& r = i < sector.rim.size() ? rim[i] : rim[0];
-    const glm::dvec3 from_v = r.to - to_v_;
-    rays_[i] = {r.to,
+    const Double4 to = make_double4(r.to), from_v = to - to_v_;
+    rays_[i] = {to,
                 from_v,
-                glm::dot(r.to, r.to),
-                glm::dot(from_v, from_v),
-                glm::dot(r.to, to_v_),
-                glm::dot(from_v, to_v_),
+                dot(to, to),
+                dot(from_v, from_v),
+                dot(to, to_v_),
+                dot(from_v, to_v_),
                 r.uv,
                 i + 1 < n ? rim.face(i) : 0};
   }
 }
 
 // Where an old and a new edge cross.
-CollapseMap::Corner CollapseMap::cross(const Ray& old_edge, const Ray& new_edge) const {
+CollapseMap::Corner CollapseMap::cross(const Ray& old_edge, const Ray& new_edge) {
   double s = 0, t = 0;
   if (matching_ == Matching::texture) {
     const glm::dvec2 a = old_edge.uv, b = new_edge.uv - uv_to_v_;
@@ -213,60 +215,64 @@ CollapseMap::Corner CollapseMap::cross(const Ray& old_edge, const Ray& new_edge)
   } else {
     closest_on_segments({.aa = old_edge.to2,
                          .bb = new_edge.from_v2,
-                         .ab = glm::dot(old_edge.to, new_edge.from_v),
+                         .ab = dot(old_edge.to, new_edge.from_v),
                          .ar = -old_edge.to_v,
                          .br = -new_edge.from_v_v},
                         s, t);
   }
-  const glm::dvec3 before = s * old_edge.to;
-  return {before - to_v_ - t * new_edge.from_v, before};
+  const Double4 before = s * old_edge.to, shift = before - to_v_ - t * new_edge.from_v;
+  largest2_ = std::max(largest2_, dot(shift, shift));
+  return {shift, before};
 }
 
 // One side of the star, from v to the middle; the left is the one on which the rim's numbers are
 // lower. Old edges i = 0 ... middle (0 ends at v) make rows of corners with new edges j > i, up to
 // the one beyond the middle, where u is. Old face i lies between rows i and i + 1, new face j
 // between columns j and j + 1.
-void CollapseMap::add_side(std::size_t middle, bool is_left, const glm::dvec3& u_after) {
+void CollapseMap::add_side(std::size_t middle, bool is_left, const Double4& u_after) {
   const std::size_t last = rays_.size() - 1;
   const auto ray = [&](std::size_t i) -> const Ray& { return rays_[is_left ? i : last - i]; };
   const auto face = [&](std::size_t i) { return rays_[is_left ? i : last - i - 1].face; };
   const std::size_t beyond = middle + 1;
-  row_.assign(beyond + 1, {glm::dvec3(0), to_v_});
+  row_.assign(beyond + 1, Corner{{}, to_v_});
   next_row_.resize(beyond + 1);
   for (std::size_t i = 0; i < middle; ++i) {
-    next_row_[i + 1] = {glm::dvec3(0), ray(i + 1).to};
+    next_row_[i + 1] = Corner{{}, ray(i + 1).to};
     for (std::size_t j = i + 2; j < beyond; ++j) next_row_[j] = cross(ray(i + 1), ray(j));
-    next_row_[beyond] = {-u_after, glm::dvec3(0)};
+    next_row_[beyond] = Corner{-u_after, {}};
     for (std::size_t j = std::max<std::size_t>(i, 1); j <= middle; ++j) {
-      const std::array<Corner, 4> corners{row_[j], row_[j + 1], next_row_[j + 1], next_row_[j]};
-      add_cell(face(i), face(j), {corners.data(), j > i ? 4u : 3u});
+      const Corner& last_corner = j > i ? next_row_[j] : next_row_[j + 1];
+      add_cell({face(i), face(j)}, {row_[j], row_[j + 1], next_row_[j + 1], last_corner});
     }
     std::swap(row_, next_row_);
   }
 }
 
-// corners: around the cell.
-void CollapseMap::add_cell(std::uint32_t old_face, std::uint32_t new_face,
-                           std::span<const Corner> corners) {
-  glm::dvec3 lo(kInfinity), hi(-kInfinity);
-  for (const Corner& c : corners) {
-    lo = glm::min(lo, c.shift), hi = glm::max(hi, c.shift);
-    largest2_ = std::max(largest2_, glm::dot(c.shift, c.shift));
+void CollapseMap::add_cell(const MapCell& of, const Around& around) {
+  const auto& [a, b, c, d] = around;
+  Double4 lo = a.shift < b.shift ? a.shift : b.shift, hi = a.shift > b.shift ? a.shift : b.shift;
+  for (const Double4& shift : {c.shift, d.shift}) {
+    lo = lo < shift ? lo : shift;
+    hi = hi > shift ? hi : shift;
   }
-  const glm::vec3 l(lo), h(hi);
-  const glm::vec3 out = kOutward * glm::max(glm::abs(l), glm::abs(h));
-  cells_.push_back({old_face, new_face, {l - out, h + out}});
-  if (!with_moments_) return;
+  const Float4 l = __builtin_convertvector(lo, Float4), h = __builtin_convertvector(hi, Float4);
+  const Float4 far = h > -l ? h : -l;  // the larger absolute value
+  cells_.push_back({of.old_face, of.new_face, {l - kOutward * far, h + kOutward * far}});
+  if (with_moments_) add_moments(around);
+}
+
+void CollapseMap::add_moments(const Around& around) {
+  const auto at = [](const Double4& v) { return glm::dvec3(v[0], v[1], v[2]); };
   CellMoments& cell = moments_.emplace_back();
-  for (std::size_t i = 1; i + 1 < corners.size(); ++i) {
-    const Corner &a = corners[0], &b = corners[i], &c = corners[i + 1];
-    const double area = 0.5 * glm::length(glm::cross(b.before - a.before, c.before - a.before));
-    const glm::dvec3 sum = a.shift + b.shift + c.shift;
+  const glm::dvec3 a = at(around.a.shift), p = at(around.a.before);
+  for (const auto& [second, third] : {std::pair(&around.b, &around.c), {&around.c, &around.d}}) {
+    const glm::dvec3 q = at(second->before) - p, r = at(third->before) - p;
+    const glm::dvec3 b = at(second->shift), c = at(third->shift), sum = a + b + c;
+    const double area = 0.5 * glm::length(glm::cross(q, r));
     cell.area += area;
     cell.mean += area / 3 * sum;
-    cell.square += area / 12 *
-                   (glm::dot(a.shift, a.shift) + glm::dot(b.shift, b.shift) +
-                    glm::dot(c.shift, c.shift) + glm::dot(sum, sum));
+    cell.square +=
+        area / 12 * (glm::dot(a, a) + glm::dot(b, b) + glm::dot(c, c) + glm::dot(sum, sum));
   }
   if (cell.area > 0) cell.mean /= cell.area, cell.square /= cell.area;
 }

@@ -20,7 +20,7 @@ enum class Matching {
 /// A part of one old face that goes to a part of one new face.
 struct MapCell {
   std::uint32_t old_face, new_face;  ///< places in CollapseMap::faces()
-  VectorBox shift;  ///< of old point minus new point; linear between the corners, so it holds all
+  VectorBox shift{};  ///< of old point minus new point; linear between the corners, so it holds all
 };
 
 /// Of the points of a cell, over its part of the old face.
@@ -68,7 +68,7 @@ class CollapseMap {
   /// face that takes u in it (a place in faces()) and how far u is from there.
   template <typename Visit>
   void for_each_place(Visit&& visit) const {
-    for (const Place& p : last_) visit(p.face, -p.after);
+    for (const Place& p : last_) visit(p.face, -make_double4(p.after));
   }
   /// The faces of u, by their numbers in the mesh, and those that take over from lone triangles.
   std::span<const std::uint32_t> faces() const { return star_.faces(); }
@@ -97,14 +97,18 @@ class CollapseMap {
   };
   // An old edge u-w and the new edge v-w.
   struct Ray {
-    glm::dvec3 to, from_v;  // w relative to u, and to v
+    Double4 to, from_v;     // w relative to u, and to v
     double to2, from_v2;    // squared lengths
     double to_v, from_v_v;  // dot products with v relative to u
     glm::dvec2 uv;          // w relative to u
     std::uint32_t face;     // to the next
   };
   struct Corner {
-    glm::dvec3 shift, before;  // relative to u
+    Double4 shift{}, before{};  // relative to u
+  };
+
+  struct Around {  // of a cell; of a triangle, c and d are the same
+    const Corner &a, &b, &c, &d;
   };
 
   bool place_sector(const CollapseStar::Sector& sector, std::uint32_t v, Place& place) const;
@@ -114,9 +118,11 @@ class CollapseMap {
   bool lay_sector(const CollapseStar::Sector& sector, const Place& place, std::uint32_t v);
   bool lay_lone(const CollapseStar::Sector& sector, const Place& place, std::uint32_t v);
   void make_rays(const CollapseStar::Sector& sector, const Place& place);
-  Corner cross(const Ray& old_edge, const Ray& new_edge) const;
-  void add_side(std::size_t middle, bool is_left, const glm::dvec3& u_after);
-  void add_cell(std::uint32_t old_face, std::uint32_t new_face, std::span<const Corner> corners);
+  Corner cross(const Ray& old_edge, const Ray& new_edge);
+  void add_side(std::size_t middle, bool is_left, const Double4& u_after);
+  using Corners = std::span<const Corner* const>;  // around a cell
+  void add_cell(const MapCell& of, const Around& around);
+  void add_moments(const Around& around);
 
   const CollapseMesh& mesh_;
   CollapseStar star_;
@@ -129,7 +135,7 @@ class CollapseMap {
   std::vector<CellMoments> moments_;
   double largest2_ = 0;
   std::vector<Ray> rays_;
-  glm::dvec3 to_v_{0};
+  Double4 to_v_{};
   glm::dvec2 uv_to_v_{0};
   std::vector<Corner> row_, next_row_;
 };

@@ -78,8 +78,9 @@ float MappingMetric::cost_at_least(std::uint32_t u, std::uint32_t v) {
   if (!map_.place(u, v)) return std::numeric_limits<float>::infinity();
   // what the point at u alone would deviate
   float reach2 = 0;
-  map_.for_each_place([&](std::uint32_t face, const glm::dvec3& shift) {
-    VectorBox box{glm::vec3(shift), glm::vec3(shift)};
+  map_.for_each_place([&](std::uint32_t face, const Double4& shift) {
+    const Float4 s = __builtin_convertvector(shift, Float4);
+    VectorBox box{s, s};
     if (options_.total) box = box.plus(boxes_[map_.faces()[face]]);
     reach2 = std::max(reach2, box.reach2());
   });
