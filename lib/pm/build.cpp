@@ -44,8 +44,10 @@ struct Recorded {
   const CollapseMesh& mesh;
   Metric& metric;
   Recorder& recorder;
-  MappingMetric* guard;  // of the error bound, or none
+  CollapseBound* guard;  // of the error bound, or none
   float error_bound;
+  glm::vec3 last_place{0};
+  static constexpr bool kPlaces = requires(Metric m) { m.place(0u, 0u); };
   static constexpr int kReach = [] {
     if constexpr (requires { Metric::kReach; }) return Metric::kReach;
     return 1;
@@ -60,19 +62,23 @@ struct Recorded {
   // charts.
   glm::vec3 place(std::uint32_t u, std::uint32_t v) requires requires(Metric m) { m.place(u, v); }
   {
-    const glm::vec3 free = metric.place(u, v);
+    const glm::vec3 free = last_place = metric.place(u, v);
     if (recorder.texcoords().empty() || !recorder.match(mesh, u, v) ||
         recorder.table().pairs().size() < 2)
       return free;
     const glm::dvec3 a(mesh.position(u)), b(mesh.position(v));
-    return glm::vec3(glm::mix(a, b, closest_on_segment(glm::dvec3(free), a, b)));
+    return last_place = glm::vec3(glm::mix(a, b, closest_on_segment(glm::dvec3(free), a, b)));
   }
   Refusal allows(const CollapseMesh&, std::uint32_t u, std::uint32_t v) {
     if (!recorder.match(mesh, u, v)) return Refusal::chart;
-    const Refusal refusal = as_refusal(metric.allows(mesh, u, v));
+    Refusal refusal = Refusal::none;
+    if constexpr (requires { metric.allows(mesh, u, v, last_place); })
+      refusal = as_refusal(metric.allows(mesh, u, v, last_place));
+    else
+      refusal = as_refusal(metric.allows(mesh, u, v));
     if (refusal != Refusal::none || !guard) return refusal;
-    if (guard->allows(mesh, u, v) != Refusal::none) return Refusal::bound;
-    return guard->next_reach() <= error_bound ? Refusal::none : Refusal::bound;
+    const float reach = kPlaces ? guard->look(u, v, last_place) : guard->look(u, v);
+    return reach <= error_bound ? Refusal::none : Refusal::bound;
   }
   // A bound of the distance from the input so far.
   float error() const {
@@ -87,14 +93,14 @@ struct Recorded {
   template <typename... Place>
   void collapsed(std::uint32_t u, std::uint32_t v, const Place&... place) {
     metric.collapsed(u, v, place...);
-    if (guard) guard->collapsed(u, v);
+    if (guard) guard->take();
   }
 };
 
 // Runs the loop in slices, for the progress.
 template <typename Metric>
 CollapseCounts collapse_all(CollapseMesh& mesh, Metric& metric, Recorder& recorder,
-                            MappingMetric* guard, float scale, const BuildOptions& options,
+                            CollapseBound* guard, float scale, const BuildOptions& options,
                             const Progress& progress) {
   constexpr std::size_t kSlices = 100;
   Recorded<Metric> recorded{mesh, metric, recorder, guard, options.error_bound * scale};
@@ -129,13 +135,15 @@ CollapseCounts run_metric(CollapseMesh& mesh, WedgeMesh& wedges,
                           const std::vector<Triangle>& triangles, Recorder& recorder, float scale,
                           const BuildOptions& options, const Progress& progress) {
   std::vector<glm::vec3>& positions = wedges.positions;
-  std::optional<MappingMetric> guard;
+  std::optional<CollapseBound> guard;
   if (std::isfinite(options.error_bound))
-    guard.emplace(mesh, recorder.table(), positions, std::span<const glm::vec2>(), triangles);
+    guard.emplace(mesh, recorder.table(), positions, triangles.size());
   const auto run = [&](auto&& metric) {
     return collapse_all(mesh, metric, recorder, guard ? &*guard : nullptr, scale, options,
                         progress);
   };
+  if (options.metric == MetricKind::mapping && options.placement == Placement::full)
+    return run(MappingFullMetric(mesh, recorder.table(), positions, triangles.size(), options.lt));
   if (options.metric == MetricKind::aps || options.metric == MetricKind::mapping)
     return run(MappingMetric(
         mesh, recorder.table(), positions, recorder.texcoords(), triangles,
@@ -155,8 +163,11 @@ CollapseCounts run_metric(CollapseMesh& mesh, WedgeMesh& wedges,
 void check_options(const TriMesh& mesh, const BuildOptions& options) {
   if (options.metric == MetricKind::lt && options.placement == Placement::half)
     throw UsageError("metric lt places vertices anew: it needs --placement full");
-  if (std::isfinite(options.error_bound) && options.placement == Placement::full)
-    throw UsageError("an error bound is for half-edge collapses: it needs --placement half");
+  if (options.metric == MetricKind::mapping && options.placement == Placement::full) {
+    if (!options.total_error || options.measure != Measure::max)
+      throw UsageError("metric mapping with --placement full is --error total --measure max only");
+    return;
+  }
   if (!needs_texture(options.metric)) return;
   const std::string metric = std::string("metric ") + metric_name(options.metric);
   if (options.placement == Placement::full)

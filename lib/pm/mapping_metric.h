@@ -2,9 +2,11 @@
 // metric.
 #pragma once
 
+#include <limits>
 #include <vector>
 
-#include "pm/collapse_map.h"
+#include "pm/collapse_bound.h"
+#include "pm/lindstrom_turk.h"
 
 namespace viewcell {
 
@@ -44,10 +46,8 @@ class MappingMetric {
   Refusal allows(const CollapseMesh&, std::uint32_t u, std::uint32_t v);
   void collapsed(std::uint32_t u, std::uint32_t v);
   /// With `total` and Measure::max: no point of the mesh, nor of the input, is farther than this
-  /// from the other surface (otherwise below 0); and how far a face would be after the collapse
-  /// last allowed.
-  float bound() const { return bound_; }
-  float next_reach() const;
+  /// from the other surface; otherwise below 0.
+  float bound() const { return is_bound() ? boxes_.bound() : -1; }
 
  private:
   // Deviations of the points of the input that a face stands for, over their area.
@@ -58,20 +58,48 @@ class MappingMetric {
   // Of a face of the last map, by its place in CollapseMap::faces().
   struct Next {
     bool is_old = false, is_new = false;
-    VectorBox box;
     Moments moments;
     double old_area = 0;  // of the cells of the old face
   };
-  void add_up();
+  bool is_bound() const { return options_.total && options_.measure == Measure::max; }
+  float add_up();
   float add_up_moments();
 
   MappingOptions options_;
   CollapseMap map_;
-  std::vector<VectorBox> boxes_;  // by face: deviations from the input
-  std::vector<Moments> moments_;  // by face, for Measure::mean
+  DeviationBoxes boxes_;  // with Measure::max
+  DeviationBoxes::Change change_;
+  std::vector<Moments> moments_;  // by face, with Measure::mean
   std::vector<Next> next_;
-  float bound_ = -1;  // until there is one
-  double area_ = 1;   // of the whole surface
+  double area_ = 1;  // of the whole surface
+};
+
+/// Full-edge collapses in the order of how far they would take the mesh from the input at most
+/// (total, Matching::nearest), each into the place that LindstromTurkMetric finds. Needs no texture
+/// coordinates.
+class MappingFullMetric {
+ public:
+  static constexpr int kReach = 2;
+
+  /// Keeps references; moves positions.
+  MappingFullMetric(CollapseMesh& mesh, const WedgeTable& wedges, std::span<glm::vec3> positions,
+                    std::size_t n_faces, const LindstromTurkOptions& options = {})
+      : places_(mesh, positions, options), bound_(mesh, wedges, positions, n_faces) {}
+
+  float cost(std::uint32_t u, std::uint32_t v) { return bound_.look(u, v, places_.place(u, v)); }
+  glm::vec3 place(std::uint32_t u, std::uint32_t v) { return places_.place(u, v); }
+  bool allows(const CollapseMesh&, std::uint32_t u, std::uint32_t v, const glm::vec3& place) {
+    return bound_.look(u, v, place) < std::numeric_limits<float>::infinity();
+  }
+  void collapsed(std::uint32_t u, std::uint32_t v, const glm::vec3& place) {
+    places_.collapsed(u, v, place);
+    bound_.take();
+  }
+  float bound() const { return bound_.bound(); }
+
+ private:
+  LindstromTurkMetric places_;
+  CollapseBound bound_;
 };
 
 }  // namespace viewcell

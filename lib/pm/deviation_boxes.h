@@ -1,0 +1,47 @@
+// A bound on the distance between a mesh that is being collapsed and its input.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "pm/collapse_map.h"
+
+namespace viewcell {
+
+/// Every face has a box of vectors that holds the deviations, point of the input minus matched
+/// point, of all its points; maps of collapses hand them on. Every point of the mesh and of the
+/// input is in some such pair, so the farthest reach of the boxes bounds the distance both ways.
+/// Follows: [Cohen, Olano, Manocha 1998 4.3], [Chen06 4.2.1].
+class DeviationBoxes {
+ public:
+  explicit DeviationBoxes(std::size_t n_faces) : boxes_(n_faces) {}
+
+  struct Next {
+    std::uint32_t face;
+    VectorBox box;
+  };
+  using Change = std::vector<Next>;  ///< faces with new boxes
+
+  /// Adds what a map does to a change; a second map starts where the first ended.
+  void add(const CollapseMap& map, Change& change);
+  /// The farthest reach of the faces of a change.
+  static float reach(const Change& change);
+  /// Of u's own deviation after the map's last place(); that of the whole map is not below it.
+  float least_reach(const CollapseMap& map) const;
+  void take(const Change& change);
+  /// No point of the mesh, nor of the input, is farther than this from the other surface.
+  float bound() const { return bound_; }
+
+ private:
+  struct Local {  // of a face of the map
+    VectorBox before, after;
+    bool is_old = false, is_new = false;
+  };
+  const VectorBox& box_of(std::uint32_t face, const Change& change) const;
+
+  std::vector<VectorBox> boxes_;  // by face
+  std::vector<Local> local_;      // by place in CollapseMap::faces()
+  float bound_ = 0;
+};
+
+}  // namespace viewcell
