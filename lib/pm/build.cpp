@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "base/error.h"
-#include "pm/nearest.h"
+#include "pm/recorded_metric.h"
 #include "pm/recorder.h"
 #include "pm/wedge_mesh.h"
 
@@ -38,72 +38,18 @@ float unit_scale(const std::vector<glm::vec3>& positions) {
   return std::ldexp(1.0f, -std::clamp(std::ilogb(longest), -126, 126));
 }
 
-// The metric asked for, held to the boundaries of texture charts, with every collapse recorded.
-template <typename Metric>
-struct Recorded {
-  const CollapseMesh& mesh;
-  Metric& metric;
-  Recorder& recorder;
-  CollapseBound* guard;  // of the error bound, or none
-  float error_bound;
-  glm::vec3 last_place{0};
-  static constexpr bool kPlaces = requires(Metric m) { m.place(0u, 0u); };
-  static constexpr int kReach = [] {
-    if constexpr (requires { Metric::kReach; }) return Metric::kReach;
-    return 1;
-  }();
-
-  float cost(std::uint32_t u, std::uint32_t v) { return metric.cost(u, v); }
-  float cost_at_least(std::uint32_t u, std::uint32_t v) requires requires(Metric m) {
-    m.cost_at_least(u, v);
-  }
-  { return metric.cost_at_least(u, v); }
-  // Along the border of two charts the place stays on the edge, whatever the metric knows of
-  // charts.
-  glm::vec3 place(std::uint32_t u, std::uint32_t v) requires requires(Metric m) { m.place(u, v); }
-  {
-    const glm::vec3 free = last_place = metric.place(u, v);
-    if (recorder.texcoords().empty() || !recorder.match(mesh, u, v) ||
-        recorder.table().pairs().size() < 2)
-      return free;
-    const glm::dvec3 a(mesh.position(u)), b(mesh.position(v));
-    return last_place = glm::vec3(glm::mix(a, b, closest_on_segment(glm::dvec3(free), a, b)));
-  }
-  Refusal allows(const CollapseMesh&, std::uint32_t u, std::uint32_t v) {
-    if (!recorder.match(mesh, u, v)) return Refusal::chart;
-    Refusal refusal = Refusal::none;
-    if constexpr (requires { metric.allows(mesh, u, v, last_place); })
-      refusal = as_refusal(metric.allows(mesh, u, v, last_place));
-    else
-      refusal = as_refusal(metric.allows(mesh, u, v));
-    if (refusal != Refusal::none || !guard) return refusal;
-    const float reach = kPlaces ? guard->look(u, v, last_place) : guard->look(u, v);
-    return reach <= error_bound ? Refusal::none : Refusal::bound;
-  }
-  // A bound of the distance from the input so far.
-  float error() const {
-    if (guard) return guard->bound();
-    if constexpr (requires { metric.bound(); }) return metric.bound();
-    return -1;
-  }
-  void traced(std::uint32_t u, std::uint32_t v, const CollapseTrace& trace) {
-    if constexpr (requires { metric.traced(u, v, trace); }) metric.traced(u, v, trace);
-    recorder.traced(u, v, trace);
-  }
-  template <typename... Place>
-  void collapsed(std::uint32_t u, std::uint32_t v, const Place&... place) {
-    metric.collapsed(u, v, place...);
-    if (guard) guard->take();
-  }
-};
-
 // Runs the loop in slices, for the progress.
 template <typename Metric>
 CollapseCounts collapse_all(CollapseMesh& mesh, Metric& metric, Recorder& recorder,
                             CollapseBound* guard, float scale, const BuildOptions& options,
                             const Progress& progress) {
   constexpr std::size_t kSlices = 100;
-  Recorded<Metric> recorded{mesh, metric, recorder, guard, options.error_bound * scale};
+  RecordedMetric<Metric> recorded{mesh,
+                                  metric,
+                                  recorder,
+                                  guard,
+                                  options.error_bound * scale,
+                                  options.refuse_folds || needs_texture(options.metric)};
   CollapseLoop loop(mesh, recorded);
   const std::size_t start = mesh.n_triangles();
   const std::size_t span = start - std::min(start, std::max<std::size_t>(options.target_faces, 1));
@@ -136,7 +82,7 @@ CollapseCounts run_metric(CollapseMesh& mesh, WedgeMesh& wedges,
                           const BuildOptions& options, const Progress& progress) {
   std::vector<glm::vec3>& positions = wedges.positions;
   std::optional<CollapseBound> guard;
-  if (std::isfinite(options.error_bound))
+  if (options.track_error || std::isfinite(options.error_bound))
     guard.emplace(mesh, recorder.table(), positions, triangles.size());
   const auto run = [&](auto&& metric) {
     return collapse_all(mesh, metric, recorder, guard ? &*guard : nullptr, scale, options,

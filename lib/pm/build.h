@@ -31,8 +31,14 @@ struct BuildOptions {
   std::size_t target_faces = 1;                             ///< stop at or below; at least 1
   float max_cost = std::numeric_limits<float>::infinity();  ///< of a collapse, the metric's unit
   /// Collapses after which the surface might be farther than this from the input, or the input from
-  /// it, are refused; mesh units. For half-edge collapses. Every level then knows its error().
+  /// it, are refused; mesh units.
   float error_bound = std::numeric_limits<float>::infinity();
+  /// Every level knows its error(), whatever the metric. Levels of aps and mapping do (total, max),
+  /// and those of an error bound.
+  bool track_error = false;
+  /// Refuse what turns a triangle over in the texture, whatever the metric; qem5, aps and mapping
+  /// always do.
+  bool refuse_folds = false;
   bool lazy = true;         ///< costs are looked at again when they come up, see CollapseLimits
   float min_cosine = 0.2f;  ///< a normal may turn by up to acos of this
   bool total_error = true;  ///< aps, mapping: distance to the input, not to the step before

@@ -262,17 +262,4 @@ bool CollapseMap::move_open(const Sector& sector, const glm::dvec3& apex) {
   return true;
 }
 
-bool CollapseMap::keeps_texture_orientation() const {
-  if (!star_.has_texcoords()) return true;
-  for (std::size_t i = 0; i < last_.size(); ++i) {
-    const Sector& sector = star_.sectors()[i];
-    const Walk rim{sector, last_[i].v, last_[i].step};
-    for (std::size_t j = 1; j + 1 < sector.rim.size(); ++j) {
-      const glm::dvec2 b = rim[j].uv, c = rim[j + 1].uv, v = rim[0].uv;
-      if (!(cross2(b, c) * cross2(b - v, c - v) > 0)) return false;
-    }
-  }
-  return true;
-}
-
 }  // namespace viewcell

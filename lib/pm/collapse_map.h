@@ -63,9 +63,6 @@ class CollapseMap {
   std::span<const std::uint32_t> faces() const { return star_.faces(); }
   /// Of the last lay() or lay_move(); faces are places in faces().
   const FanOverlay& overlay() const { return overlay_; }
-  /// Whether every new face of the last place() or lay() keeps the sign of the old one's texture
-  /// area.
-  bool keeps_texture_orientation() const;
 
  private:
   using Sector = CollapseStar::Sector;

@@ -37,7 +37,6 @@ class CollapseStar {
   bool gather(std::uint32_t u);
   void forget() { of_ = kNone; }
   std::uint32_t of() const { return of_; }
-  bool has_texcoords() const { return !texcoords_.empty(); }
   const std::vector<Sector>& sectors() const { return sectors_; }
   const std::vector<std::uint32_t>& faces() const { return faces_; }
   /// Appends a face that is not of u, or finds it; returns its place in faces().

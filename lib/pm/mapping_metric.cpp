@@ -80,12 +80,11 @@ float MappingMetric::cost(std::uint32_t u, std::uint32_t v) {
   return options_.total ? add_up() : static_cast<float>(map_.overlay().largest_shift());
 }
 
-Refusal MappingMetric::allows(const CollapseMesh&, std::uint32_t u, std::uint32_t v) {
-  if (!map_.lay(u, v)) return Refusal::metric;
-  if (!map_.keeps_texture_orientation()) return Refusal::fold;
+bool MappingMetric::allows(const CollapseMesh&, std::uint32_t u, std::uint32_t v) {
+  if (!map_.lay(u, v)) return false;
   if (is_bound()) add_up();
   if (options_.total && options_.measure == Measure::mean) add_up_moments();
-  return Refusal::none;
+  return true;
 }
 
 void MappingMetric::collapsed(std::uint32_t, std::uint32_t) {

@@ -42,8 +42,7 @@ class MappingMetric {
   float cost(std::uint32_t u, std::uint32_t v);
   /// cost(u, v) is not below this; a fraction of its time.
   float cost_at_least(std::uint32_t u, std::uint32_t v);
-  /// Not when a face would turn over in the texture (Refusal::fold).
-  Refusal allows(const CollapseMesh&, std::uint32_t u, std::uint32_t v);
+  bool allows(const CollapseMesh&, std::uint32_t u, std::uint32_t v);
   void collapsed(std::uint32_t u, std::uint32_t v);
   /// With `total` and Measure::max: no point of the mesh, nor of the input, is farther than this
   /// from the other surface; otherwise below 0.

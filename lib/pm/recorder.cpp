@@ -4,6 +4,8 @@
 #include <utility>
 
 #include "base/error.h"
+#include "pm/nearest.h"
+#include "pm/texture_fold.h"
 
 namespace viewcell {
 namespace {
@@ -43,6 +45,16 @@ Recorder::Recorder(const WedgeMesh& mesh, const TriMesh& input, float scale, boo
   splits_.reserve(mesh.positions.size());
 }
 
+bool Recorder::folds(const CollapseMesh& mesh, std::uint32_t u, std::uint32_t v,
+                     const glm::vec3& place) const {
+  if (texcoords_.empty()) return false;
+  const double along = is_full_
+                           ? closest_on_segment(glm::dvec3(place), glm::dvec3(mesh.position(v)),
+                                                glm::dvec3(mesh.position(u)))
+                           : 0;
+  return turns_over_texture(mesh, table_, texcoords_, u, v, along);
+}
+
 void Recorder::traced(std::uint32_t, std::uint32_t v, const CollapseTrace& trace) {
   moved_from_.clear();
   for (const std::uint32_t c : trace.moved) moved_from_.push_back(table_.at(c));
@@ -80,14 +92,11 @@ glm::vec3 Recorder::unscaled(std::uint32_t v, const glm::vec3& p) const {
 // The parent's texture coordinates go as far towards the child's as its position did.
 void Recorder::move_texcoords(std::uint32_t u, std::uint32_t v) {
   const glm::dvec3 from(parent_positions_.back() * scale_);
-  const glm::dvec3 edge = glm::dvec3(mesh_.positions[u]) - from;
-  const double length2 = glm::dot(edge, edge);
-  const double along = glm::dot(glm::dvec3(mesh_.positions[v]) - from, edge);
-  const double t = length2 > 0 ? std::clamp(along / length2, 0.0, 1.0) : 0.0;
+  const double along =
+      closest_on_segment(glm::dvec3(mesh_.positions[v]), from, glm::dvec3(mesh_.positions[u]));
   for (const auto& [child, parent] : matched_) {
     parent_texcoords_.push_back(texcoords_[parent]);
-    texcoords_[parent] =
-        glm::vec2(glm::mix(glm::dvec2(texcoords_[parent]), glm::dvec2(texcoords_[child]), t));
+    texcoords_[parent] = merged_texcoord(texcoords_[child], texcoords_[parent], along);
   }
 }
 

@@ -20,6 +20,10 @@ class Recorder {
   bool match(const CollapseMesh& mesh, std::uint32_t u, std::uint32_t v) {
     return table_.match(mesh, u, v, is_full_);
   }
+  /// Whether the collapse that was matched last turns a triangle over in the texture. place: where
+  /// both go, or v for a half-edge collapse.
+  bool folds(const CollapseMesh& mesh, std::uint32_t u, std::uint32_t v,
+             const glm::vec3& place) const;
   /// The triangles have changed; the parent has not moved yet.
   void traced(std::uint32_t u, std::uint32_t v, const CollapseTrace& trace);
   /// The parent has moved. cost and error are in the input's units.

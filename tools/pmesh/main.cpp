@@ -19,7 +19,7 @@ constexpr int kOverThreshold = 5;
 
 struct Arguments {
   std::string model, metric = "qem3", placement, error = "total", measure = "max", stop_at, pm;
-  bool unweighted = false, mean = false, exact = false;
+  bool unweighted = false, mean = false, exact = false, no_texture = false;
   std::size_t n_faces = 0;
   BuildOptions build;
 };
@@ -34,8 +34,8 @@ CLI::App& declare_build(CLI::App& app, Arguments& a) {
                   "Lindstrom-Turk, memoryless")
       ->capture_default_str();
   build.add_option("--placement", a.placement,
-                   "half: a vertex goes to its neighbour; full: both to the best place (default: "
-                   "half for qem3, full for lt)");
+                   "half: a vertex goes to its neighbour; full: both to the best place (qem3, lt, "
+                   "mapping; default: half, for lt full)");
   build
       .add_option("--error", a.error,
                   "aps, mapping: total, from the input, or incremental, from the step before")
@@ -65,8 +65,15 @@ CLI::App& declare_build(CLI::App& app, Arguments& a) {
   build
       .add_option("--bounded", a.build.error_bound,
                   "refuse what could bring a point farther than this from the other surface, in "
-                  "units of the mesh (half-edge collapses)")
+                  "units of the mesh")
       ->check(within(1e-30, 1e30));
+  build.add_flag("--track-error", a.build.track_error,
+                 "keep a bound of the distance for every level, under any metric (aps, mapping "
+                 "and --bounded have it)");
+  build.add_flag("--no-folds", a.build.refuse_folds,
+                 "refuse what turns a triangle over in the texture (qem5, aps, mapping do)");
+  build.add_flag("--no-texture", a.no_texture,
+                 "leave texture coordinates out: charts then hold nothing back");
   build.add_flag("--exact", a.exact, "look at every changed cost at once, not when it comes up");
   return build;
 }
@@ -112,6 +119,8 @@ Json format_options(const BuildOptions& b) {
     out["error"] = b.total_error ? "total" : "incremental";
   if (b.metric == MetricKind::mapping) out["measure"] = b.measure == Measure::mean ? "mean" : "max";
   if (std::isfinite(b.error_bound)) out["error_bound"] = b.error_bound;
+  if (b.track_error) out["track_error"] = true;
+  if (b.refuse_folds) out["refuse_folds"] = true;
   if (b.metric == MetricKind::qem5) out["texture_weight"] = b.texture_weight;
   if (b.metric == MetricKind::qem3 || b.metric == MetricKind::qem5) {
     out["area_weighted"] = b.qem.area_weighted;
@@ -151,14 +160,16 @@ int build(const Tool& tool, Arguments& a) {
   set_stop(a.stop_at, options);
   options.name = a.model;
   Stopwatch watch;
-  const TriMesh mesh = read_mesh(a.model);
+  TriMesh mesh = read_mesh(a.model);
+  if (a.no_texture) mesh.texcoords.clear();
   const double read_s = watch.lap_s();
   BuildResult result = build_progressive_mesh(mesh, options, tool.progress("percent"));
   const double build_s = watch.lap_s();
   const std::size_t n_faces = result.record.faces.size();
   const std::size_t n_base = n_faces - result.record.born.size();
-  result.record.made_by =
-      make_provenance(tool, format_options(options), {{"model", hash_file(a.model)}}).dump();
+  Json said = format_options(options);
+  if (a.no_texture) said["texture"] = false;
+  result.record.made_by = make_provenance(tool, said, {{"model", hash_file(a.model)}}).dump();
   write_pm(tool.common().output, result.record);
   const CollapseCounts& counts = result.counts;
   const bool is_short =

@@ -1,0 +1,77 @@
+// A metric for the loop that builds progressive meshes.
+#pragma once
+
+#include "pm/collapse_bound.h"
+#include "pm/collapse_loop.h"
+#include "pm/nearest.h"
+#include "pm/recorder.h"
+
+namespace viewcell {
+
+/// The metric asked for, held to the boundaries of texture charts and whatever else is asked of
+/// collapses, with every one recorded. Keeps references.
+template <typename Metric>
+struct RecordedMetric {
+  const CollapseMesh& mesh;
+  Metric& metric;
+  Recorder& recorder;
+  CollapseBound* guard;  ///< for the error bound, or none
+  float error_bound;
+  bool refuse_folds;  ///< in the texture
+  glm::vec3 last_place{0};
+
+  static constexpr bool kPlaces = requires(Metric m) { m.place(0u, 0u); };
+  static constexpr int kReach = [] {
+    if constexpr (requires { Metric::kReach; }) return Metric::kReach;
+    return 1;
+  }();
+
+  float cost(std::uint32_t u, std::uint32_t v) { return metric.cost(u, v); }
+  float cost_at_least(std::uint32_t u, std::uint32_t v) requires requires(Metric m) {
+    m.cost_at_least(u, v);
+  }
+  { return metric.cost_at_least(u, v); }
+  /// Along the border of two charts the place stays on the edge, whatever the metric knows of
+  /// charts.
+  glm::vec3 place(std::uint32_t u, std::uint32_t v) requires kPlaces {
+    last_place = metric.place(u, v);
+    if (recorder.texcoords().empty() || !recorder.match(mesh, u, v) ||
+        recorder.table().pairs().size() < 2)
+      return last_place;
+    const glm::dvec3 a(mesh.position(u)), b(mesh.position(v));
+    const double t = closest_on_segment(glm::dvec3(last_place), a, b);
+    return last_place = glm::vec3(glm::mix(a, b, t));
+  }
+  Refusal allows(const CollapseMesh&, std::uint32_t u, std::uint32_t v) {
+    if (!recorder.match(mesh, u, v)) return Refusal::chart;
+    if (refuse_folds && recorder.folds(mesh, u, v, kPlaces ? last_place : mesh.position(v)))
+      return Refusal::fold;
+    const Refusal refusal = metric_allows(u, v);
+    if (refusal != Refusal::none || !guard) return refusal;
+    const float reach = kPlaces ? guard->look(u, v, last_place) : guard->look(u, v);
+    return reach <= error_bound ? Refusal::none : Refusal::bound;
+  }
+  Refusal metric_allows(std::uint32_t u, std::uint32_t v) {
+    if constexpr (requires { metric.allows(mesh, u, v, last_place); })
+      return as_refusal(metric.allows(mesh, u, v, last_place));
+    else
+      return as_refusal(metric.allows(mesh, u, v));
+  }
+  /// A bound of the distance from the input so far; below 0: not known.
+  float error() const {
+    if (guard) return guard->bound();
+    if constexpr (requires { metric.bound(); }) return metric.bound();
+    return -1;
+  }
+  void traced(std::uint32_t u, std::uint32_t v, const CollapseTrace& trace) {
+    if constexpr (requires { metric.traced(u, v, trace); }) metric.traced(u, v, trace);
+    recorder.traced(u, v, trace);
+  }
+  template <typename... Place>
+  void collapsed(std::uint32_t u, std::uint32_t v, const Place&... place) {
+    metric.collapsed(u, v, place...);
+    if (guard) guard->take();
+  }
+};
+
+}  // namespace viewcell

@@ -1,0 +1,36 @@
+#include "pm/texture_fold.h"
+
+namespace viewcell {
+namespace {
+
+double area2(const glm::vec2& a, const glm::vec2& b, const glm::vec2& c) {
+  const glm::dvec2 p = glm::dvec2(b) - glm::dvec2(a), q = glm::dvec2(c) - glm::dvec2(a);
+  return p.x * q.y - p.y * q.x;
+}
+
+}  // namespace
+
+bool turns_over_texture(const CollapseMesh& mesh, const WedgeTable& wedges,
+                        std::span<const glm::vec2> texcoords, std::uint32_t u, std::uint32_t v,
+                        double along) {
+  bool turns = false;
+  const auto look = [&](std::uint32_t moved, std::uint32_t other, auto side) {
+    mesh.for_each_corner(moved, [&](std::uint32_t c) {
+      const std::uint32_t t = 3 * (c / 3), a = t + (c + 1 - t) % 3, b = t + (c + 2 - t) % 3;
+      if (turns || mesh.vertex_at(a) == other || mesh.vertex_at(b) == other) return;
+      const glm::vec2 &at_a = texcoords[wedges.at(a)], &at_b = texcoords[wedges.at(b)];
+      const double before = area2(texcoords[wedges.at(c)], at_a, at_b);
+      for (const WedgeTable::Pair& pair : wedges.pairs()) {
+        if (pair.*side != wedges.at(c)) continue;
+        const glm::vec2 to = merged_texcoord(texcoords[pair.from], texcoords[pair.to], along);
+        if (before != 0 && !(before * area2(to, at_a, at_b) > 0)) turns = true;
+        return;
+      }
+    });
+  };
+  look(u, v, &WedgeTable::Pair::from);
+  if (along != 0) look(v, u, &WedgeTable::Pair::to);
+  return turns;
+}
+
+}  // namespace viewcell
