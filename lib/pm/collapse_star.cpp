@@ -11,8 +11,8 @@ bool CollapseStar::gather(std::uint32_t u) {
   spokes_.clear(), rim_.clear(), sectors_.clear(), faces_.clear();
   mesh_.for_each_corner(u, [&](std::uint32_t c) {
     const std::uint32_t t = 3 * (c / 3), a = t + (c + 1 - t) % 3, b = t + (c + 2 - t) % 3;
-    spokes_.push_back({c / 3, mesh_.vertex_at(a), mesh_.vertex_at(b), wedges_.at(c), wedges_.at(a),
-                       wedges_.at(b)});
+    spokes_.push_back({c / 3, mesh_.vertex_at(a), mesh_.vertex_at(b),
+                       texcoords_.empty() ? 0 : wedges_.at(c), wedges_.at(a), wedges_.at(b)});
   });
   // by texture chart; the order within does not matter
   const auto chart_before = [](const Spoke& x, const Spoke& y) { return x.wedge_u < y.wedge_u; };

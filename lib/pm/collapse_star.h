@@ -11,7 +11,8 @@
 namespace viewcell {
 
 /// The star of one vertex u at a time. Where u lies on borders of texture charts its wedges cut the
-/// star into sectors; elsewhere there is one. Places are relative to u.
+/// star into sectors; elsewhere, and without texture coordinates, there is one. Places are relative
+/// to u.
 class CollapseStar {
  public:
   /// A neighbour of u.
@@ -27,7 +28,7 @@ class CollapseStar {
     bool is_closed = false;
   };
 
-  /// Keeps references.
+  /// Keeps references. texcoords: of wedges; empty: charts do not matter.
   CollapseStar(const CollapseMesh& mesh, const WedgeTable& wedges,
                std::span<const glm::vec3> positions, std::span<const glm::vec2> texcoords)
       : mesh_(mesh), wedges_(wedges), positions_(positions), texcoords_(texcoords) {}

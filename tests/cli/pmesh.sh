@@ -46,12 +46,26 @@ expect 0 "$pmesh" build relief.obj --metric mapping --error incremental -o step.
 ! cmp -s step.pm mapping.pm || fail "--error incremental changes nothing"
 
 # A bound is a distance that meshdist does not pass.
-expect 0 "$pmesh" build relief.obj --bounded 0.2 -o bounded.pm
-expect 0 "$pmesh" extract bounded.pm --faces 1000000 -o whole.ply
-base=$("$pmesh" info bounded.pm | grep -o '"faces_base": [0-9]*' | grep -o '[0-9]*$')
-expect 0 "$pmesh" extract bounded.pm --faces "$base" -o coarse.ply --json report.json
-grep -q '"error_bound": 0' report.json || fail "no error_bound: $(cat report.json)"
-expect 0 "$bin/meshdist" whole.ply coarse.ply --samples 20000 --fail-above 0.2
+for metric in qem3 lt "mapping --placement full"; do
+  # shellcheck disable=SC2086  # options are words
+  expect 0 "$pmesh" build relief.obj --metric $metric --bounded 0.2 -o bounded.pm --json report.json
+  ! grep -q '"bound": 0,' report.json || fail "$metric: the bound refused nothing"
+  expect 0 "$pmesh" extract bounded.pm --faces 1000000 -o whole.ply
+  base=$("$pmesh" info bounded.pm | grep -o '"faces_base": [0-9]*' | grep -o '[0-9]*$')
+  expect 0 "$pmesh" extract bounded.pm --faces "$base" -o coarse.ply --json report.json
+  grep -Eq '"error_bound": 0\.(1|2,|2$)' report.json || fail "error_bound: $(cat report.json)"
+  expect 0 "$bin/meshdist" whole.ply coarse.ply --samples 20000 --fail-above 0.2
+done
+# Without refusing anything.
+expect 0 "$pmesh" build relief.obj --metric lt --stop-at 100 -o plain.pm
+expect 0 "$pmesh" build relief.obj --metric lt --stop-at 100 --track-error -o tracked.pm
+for name in plain tracked; do
+  expect 0 "$pmesh" extract $name.pm --faces 100 -o $name.ply --json $name.json
+done
+cmp -s plain.ply tracked.ply || fail "--track-error changes the mesh"
+grep -q '"error_bound": null' plain.json || fail "a bound from nowhere"
+bound=$(grep -o '"error_bound": [0-9.e-]*' tracked.json | grep -o '[0-9.e-]*$')
+expect 0 "$bin/meshdist" whole.ply tracked.ply --samples 20000 --fail-above "$bound"
 
 # A target that cannot be reached is said, with the reasons, and what there is is written.
 expect 5 "$pmesh" build ball.off --stop-at 2 -o stuck.pm
@@ -76,13 +90,27 @@ printf 'OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n' >one.off
 expect 0 "$pmesh" build one.off -o one.pm
 expect 0 "$pmesh" extract one.pm --faces 1 -o one.ply
 
+# Charts hold collapses back, unless texture coordinates are left out.
+awk '/^vt/ { next } /^f/ { n += 3; print "vt", n, 0; print "vt", n + 1, 0; print "vt", n, 1
+  gsub("/[0-9]*", ""); print "f", $2 "/" n - 2, $3 "/" n - 1, $4 "/" n; next } 1' relief.obj >cut.obj
+expect 5 "$pmesh" build cut.obj --stop-at 100 -o cut.pm
+grep -q "by chart" "$log/err" || fail "not held back: $(cat "$log/err")"
+expect 0 "$pmesh" build cut.obj --stop-at 100 --no-texture -o uncut.pm
+expect 0 "$pmesh" info uncut.pm
+grep -q '"texture_coordinates": false' "$log/out" || fail "texture left: $(cat "$log/out")"
+# Triangles that turn over in the texture, on request.
+awk '/^vt/ { print "vt", $2 + 0.1 * sin(37 * $3), $3; next } 1' relief.obj >wavy.obj
+expect 0 "$pmesh" build wavy.obj --no-folds -o nofolds.pm --json report.json
+grep -Eq '"fold": [1-9]' report.json || fail "no fold refused: $(cat report.json)"
+
 # Bad input: one line, nothing written.
 for metric in qem5 aps mapping; do
   fault 1 "ball.off: has no texture coordinates" "$pmesh" build ball.off --metric $metric -o x.pm
 done
 fault 2 "placement" "$pmesh" build ball.off --metric lt --placement half -o x.pm
 fault 2 "placement" "$pmesh" build relief.obj --metric aps --placement full -o x.pm
-fault 2 "bound" "$pmesh" build ball.off --placement full --bounded 1 -o x.pm
+fault 2 "mapping with --placement full" \
+  "$pmesh" build relief.obj --metric mapping --measure mean --placement full -o x.pm
 fault 2 "is no metric" "$pmesh" build ball.off --metric best -o x.pm
 fault 2 "needs -o" "$pmesh" build ball.off
 fault 2 "needs -o" "$pmesh" extract some.pm --faces 400

@@ -366,10 +366,17 @@ TEST(CollapseMap, MovedCellsCoverTheStar) {
 
 TEST(MappingMetric, NoFaceTurnsOverInTheTexture) {
   for (std::uint64_t seed = 1; seed <= 10; ++seed)
-    for (const MetricKind kind : {MetricKind::aps, MetricKind::mapping}) {
-      SCOPED_TRACE(seed);
+    for (const auto& [kind, placement] : {std::pair{MetricKind::aps, Placement::half},
+                                          {MetricKind::mapping, Placement::half},
+                                          {MetricKind::mapping, Placement::full},
+                                          {MetricKind::qem5, Placement::half},
+                                          {MetricKind::qem3, Placement::half},
+                                          {MetricKind::lt, Placement::full}}) {
+      SCOPED_TRACE(std::string(metric_name(kind)) + " " + std::to_string(seed));
       BuildOptions options;
       options.metric = kind;
+      options.placement = placement;
+      options.refuse_folds = !needs_texture(kind);
       options.min_cosine = -1;
       ProgressiveMesh pm(build_progressive_mesh(make_relief(seed), options).record);
       for (;;) {
