@@ -96,6 +96,9 @@ CollapseCounts run_metric(CollapseMesh& mesh, WedgeMesh& wedges,
         {.matching = options.metric == MetricKind::aps ? Matching::texture : Matching::nearest,
          .total = options.total_error,
          .measure = options.measure}));
+  if (options.metric == MetricKind::qem5 && options.placement == Placement::full)
+    return run(TextureQemFullMetric(mesh, wedges, recorder.table(), positions, recorder.texcoords(),
+                                    {options.qem, options.texture_weight}));
   if (options.metric == MetricKind::qem5)
     return run(TextureQemMetric(mesh, wedges, recorder.table(), positions,
                                 {options.qem, options.texture_weight}));
@@ -116,7 +119,7 @@ void check_options(const TriMesh& mesh, const BuildOptions& options) {
   }
   if (!needs_texture(options.metric)) return;
   const std::string metric = std::string("metric ") + metric_name(options.metric);
-  if (options.placement == Placement::full)
+  if (options.placement == Placement::full && options.metric == MetricKind::aps)
     throw UsageError(metric + " is for half-edge collapses: it needs --placement half");
   if (mesh.texcoords.empty())
     throw InputError(options.name, "",

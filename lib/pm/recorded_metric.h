@@ -44,12 +44,17 @@ struct RecordedMetric {
   }
   Refusal allows(const CollapseMesh&, std::uint32_t u, std::uint32_t v) {
     if (!recorder.match(mesh, u, v)) return Refusal::chart;
-    if (refuse_folds && recorder.folds(mesh, u, v, kPlaces ? last_place : mesh.position(v)))
-      return Refusal::fold;
+    merge(u, v);
+    if (refuse_folds && recorder.folds(mesh, u, v)) return Refusal::fold;
     const Refusal refusal = metric_allows(u, v);
     if (refusal != Refusal::none || !guard) return refusal;
     const float reach = kPlaces ? guard->look(u, v, last_place) : guard->look(u, v);
     return reach <= error_bound ? Refusal::none : Refusal::bound;
+  }
+  void merge(std::uint32_t u, std::uint32_t v) {
+    if constexpr (requires { metric.texcoord(); })
+      if (metric.texcoord()) return recorder.merge(*metric.texcoord());
+    if (kPlaces || refuse_folds) recorder.merge(mesh, u, v, kPlaces ? last_place : glm::vec3(0));
   }
   Refusal metric_allows(std::uint32_t u, std::uint32_t v) {
     if constexpr (requires { metric.allows(mesh, u, v, last_place); })

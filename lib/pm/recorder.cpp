@@ -45,14 +45,17 @@ Recorder::Recorder(const WedgeMesh& mesh, const TriMesh& input, float scale, boo
   splits_.reserve(mesh.positions.size());
 }
 
-bool Recorder::folds(const CollapseMesh& mesh, std::uint32_t u, std::uint32_t v,
-                     const glm::vec3& place) const {
-  if (texcoords_.empty()) return false;
+void Recorder::merge(const CollapseMesh& mesh, std::uint32_t u, std::uint32_t v,
+                     const glm::vec3& place) {
+  merged_.clear();
+  if (texcoords_.empty()) return;
   const double along = is_full_
                            ? closest_on_segment(glm::dvec3(place), glm::dvec3(mesh.position(v)),
                                                 glm::dvec3(mesh.position(u)))
                            : 0;
-  return turns_over_texture(mesh, table_, texcoords_, u, v, along);
+  for (const auto& [child, parent] : table_.pairs())
+    merged_.push_back(
+        glm::vec2(glm::mix(glm::dvec2(texcoords_[parent]), glm::dvec2(texcoords_[child]), along)));
 }
 
 void Recorder::traced(std::uint32_t, std::uint32_t v, const CollapseTrace& trace) {
@@ -72,7 +75,7 @@ void Recorder::made(std::uint32_t u, std::uint32_t v, float cost, float error,
   for (const std::uint32_t wedge : moved_from_) moved_by_.push_back(place_of(wedge));
   for (const auto& [from, to] : matched_) pairs_.push_back({from, to});
   if (!is_full_) return;
-  if (!texcoords_.empty()) move_texcoords(u, v);
+  if (!texcoords_.empty()) move_texcoords();
   has_moved_[v] = true;
 }
 
@@ -89,14 +92,10 @@ glm::vec3 Recorder::unscaled(std::uint32_t v, const glm::vec3& p) const {
   return has_moved_[v] ? p / scale_ : input_.positions[mesh_.vertex_source[v]];
 }
 
-// The parent's texture coordinates go as far towards the child's as its position did.
-void Recorder::move_texcoords(std::uint32_t u, std::uint32_t v) {
-  const glm::dvec3 from(parent_positions_.back() * scale_);
-  const double along =
-      closest_on_segment(glm::dvec3(mesh_.positions[v]), from, glm::dvec3(mesh_.positions[u]));
-  for (const auto& [child, parent] : matched_) {
-    parent_texcoords_.push_back(texcoords_[parent]);
-    texcoords_[parent] = merged_texcoord(texcoords_[child], texcoords_[parent], along);
+void Recorder::move_texcoords() {
+  for (std::size_t i = 0; i < matched_.size(); ++i) {
+    parent_texcoords_.push_back(texcoords_[matched_[i].to]);
+    texcoords_[matched_[i].to] = merged_[i];
   }
 }
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "pm/progressive_mesh.h"
+#include "pm/texture_fold.h"
 #include "pm/wedge_mesh.h"
 
 namespace viewcell {
@@ -20,10 +21,17 @@ class Recorder {
   bool match(const CollapseMesh& mesh, std::uint32_t u, std::uint32_t v) {
     return table_.match(mesh, u, v, is_full_);
   }
-  /// Whether the collapse that was matched last turns a triangle over in the texture. place: where
-  /// both go, or v for a half-edge collapse.
-  bool folds(const CollapseMesh& mesh, std::uint32_t u, std::uint32_t v,
-             const glm::vec3& place) const;
+  /// After match(): the texture coordinates that its pairs get. place: where both go, or v for a
+  /// half-edge collapse. A full-edge collapse takes them as far towards the child's as the place is
+  /// along the edge.
+  void merge(const CollapseMesh& mesh, std::uint32_t u, std::uint32_t v, const glm::vec3& place);
+  /// The same for the only pair, by whoever knows better.
+  void merge(const glm::vec2& texcoord) { merged_.assign(1, texcoord); }
+  /// Whether the collapse merged last turns a triangle over in the texture.
+  bool folds(const CollapseMesh& mesh, std::uint32_t u, std::uint32_t v) const {
+    return !texcoords_.empty() &&
+           turns_over_texture(mesh, table_, texcoords_, u, v, merged_, is_full_);
+  }
   /// The triangles have changed; the parent has not moved yet.
   void traced(std::uint32_t u, std::uint32_t v, const CollapseTrace& trace);
   /// The parent has moved. cost and error are in the input's units.
@@ -38,7 +46,7 @@ class Recorder {
  private:
   std::uint8_t place_of(std::uint32_t wedge) const;
   glm::vec3 unscaled(std::uint32_t v, const glm::vec3& p) const;
-  void move_texcoords(std::uint32_t u, std::uint32_t v);
+  void move_texcoords();
   void add_attributes(ProgressiveRecord& record) const;
   void add_splits(ProgressiveRecord& record);
 
@@ -50,6 +58,7 @@ class Recorder {
   std::vector<glm::vec2> texcoords_;
   WedgeTable table_;
   std::vector<WedgeTable::Pair> matched_;  // of the last collapse
+  std::vector<glm::vec2> merged_;          // of the pairs last matched
   std::vector<std::uint32_t> moved_from_;  // wedges of the last collapse's moved corners
   // In the order of the collapses, as in ProgressiveRecord.
   std::vector<VertexSplit> splits_;

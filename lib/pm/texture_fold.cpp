@@ -12,7 +12,7 @@ double area2(const glm::vec2& a, const glm::vec2& b, const glm::vec2& c) {
 
 bool turns_over_texture(const CollapseMesh& mesh, const WedgeTable& wedges,
                         std::span<const glm::vec2> texcoords, std::uint32_t u, std::uint32_t v,
-                        double along) {
+                        std::span<const glm::vec2> merged, bool full) {
   bool turns = false;
   const auto look = [&](std::uint32_t moved, std::uint32_t other, auto side) {
     mesh.for_each_corner(moved, [&](std::uint32_t c) {
@@ -20,16 +20,15 @@ bool turns_over_texture(const CollapseMesh& mesh, const WedgeTable& wedges,
       if (turns || mesh.vertex_at(a) == other || mesh.vertex_at(b) == other) return;
       const glm::vec2 &at_a = texcoords[wedges.at(a)], &at_b = texcoords[wedges.at(b)];
       const double before = area2(texcoords[wedges.at(c)], at_a, at_b);
-      for (const WedgeTable::Pair& pair : wedges.pairs()) {
-        if (pair.*side != wedges.at(c)) continue;
-        const glm::vec2 to = merged_texcoord(texcoords[pair.from], texcoords[pair.to], along);
-        if (before != 0 && !(before * area2(to, at_a, at_b) > 0)) turns = true;
+      for (std::size_t i = 0; i < merged.size(); ++i) {
+        if (wedges.pairs()[i].*side != wedges.at(c)) continue;
+        if (before != 0 && !(before * area2(merged[i], at_a, at_b) > 0)) turns = true;
         return;
       }
     });
   };
   look(u, v, &WedgeTable::Pair::from);
-  if (along != 0) look(v, u, &WedgeTable::Pair::to);
+  if (full) look(v, u, &WedgeTable::Pair::to);
   return turns;
 }
 

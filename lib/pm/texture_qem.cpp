@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace viewcell {
 namespace {
@@ -51,6 +52,41 @@ void Quadric5::add(const Quadric5& q) {
   c += q.c, weight += q.weight;
 }
 
+void Quadric5::add(const Quadric& q) {
+  const std::array<double, 15> more{q.xx, q.xy, q.xz, 0, 0, q.yy, q.yz, 0, 0, q.zz, 0, 0, 0, 0, 0};
+  for (std::size_t k = 0; k < 15; ++k) a[k] += more[k];
+  b[0] += q.x, b[1] += q.y, b[2] += q.z, c += q.c, weight += q.weight;
+}
+
+// By Cholesky's decomposition.
+Vec5 Quadric5::minimiser(const Vec5& anchor) const {
+  double m[5][5];
+  std::size_t k = 0;
+  for (std::size_t i = 0; i < 5; ++i)
+    for (std::size_t j = i; j < 5; ++j) m[i][j] = m[j][i] = a[k++];
+  double trace = 0;
+  for (std::size_t i = 0; i < 5; ++i) trace += m[i][i];
+  const double slack = Quadric::kSlack * trace;
+  if (!(slack > 0)) return anchor;
+  Vec5 x;
+  for (std::size_t i = 0; i < 5; ++i) m[i][i] += slack, x[i] = slack * anchor[i] - b[i];
+  for (std::size_t i = 0; i < 5; ++i) {
+    for (std::size_t j = 0; j < i; ++j) m[i][i] -= m[i][j] * m[i][j], x[i] -= m[i][j] * x[j];
+    if (!(m[i][i] > 0)) return anchor;
+    m[i][i] = std::sqrt(m[i][i]);
+    x[i] /= m[i][i];
+    for (std::size_t r = i + 1; r < 5; ++r) {
+      for (std::size_t j = 0; j < i; ++j) m[r][i] -= m[r][j] * m[i][j];
+      m[r][i] /= m[i][i];
+    }
+  }
+  for (std::size_t i = 5; i-- > 0;) {
+    for (std::size_t j = i + 1; j < 5; ++j) x[i] -= m[j][i] * x[j];
+    x[i] /= m[i][i];
+  }
+  return x;
+}
+
 double Quadric5::value(const Vec5& x) const {
   double sum = c;
   std::size_t k = 0;
@@ -61,60 +97,54 @@ double Quadric5::value(const Vec5& x) const {
   return sum;
 }
 
-TextureQemMetric::TextureQemMetric(const CollapseMesh& mesh, const WedgeMesh& input,
-                                   WedgeTable& wedges, std::span<const glm::vec3> positions,
-                                   const TextureQemOptions& options)
-    : mesh_(mesh),
-      wedges_(wedges),
-      positions_(positions),
-      texcoords_(input.texcoords),
-      options_(options),
-      centre_(box_centre(positions)),
-      quadrics_(input.n_wedges()),
-      boundaries_(positions.size()) {
-  add_faces(input);
+TextureQuadrics::TextureQuadrics(const WedgeMesh& input, std::span<const glm::vec3> at,
+                                 const std::vector<glm::vec2>& uv, const TextureQemOptions& options)
+    : positions(at), texcoords(uv), centre(box_centre(at)), of_wedges(input.n_wedges()) {
   const std::vector<Triangle> triangles = input.vertex_triangles();
-  cost_scale_ = make_quadric_scale(positions, triangles, options.qem);
-  boundaries_ = make_boundary_quadrics(positions, triangles, centre_, options.qem);
+  cost_scale = make_quadric_scale(positions, triangles, options.qem);
+  boundaries = make_boundary_quadrics(positions, triangles, centre, options.qem);
+  double area_sum = 0, texture_area_sum = 0;
+  const auto area_of = [&](const Triangle& t) {
+    const glm::dvec3 a(positions[t[0]]), b(positions[t[1]]), c(positions[t[2]]);
+    return 0.5 * glm::length(glm::cross(b - a, c - a));
+  };
+  for (std::size_t f = 0; f < triangles.size(); ++f) {
+    const auto& [i, j, k] = input.faces[f];
+    const glm::dvec2 a = texcoords[i], b = texcoords[j], c = texcoords[k];
+    area_sum += area_of(triangles[f]);
+    texture_area_sum += 0.5 * std::abs((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x));
+  }
+  if (texture_area_sum > 0) scale = options.texture_weight * std::sqrt(area_sum / texture_area_sum);
+  for (std::size_t f = 0; f < triangles.size(); ++f) {
+    const double area = area_of(triangles[f]);
+    if (!(area > 0)) continue;
+    const auto corner = [&](std::size_t k) { return point(triangles[f][k], input.faces[f][k]); };
+    Quadric5 plane;
+    plane.add_triangle(corner(0), corner(1), corner(2), options.qem.area_weighted ? area / 3 : 1);
+    for (const std::uint32_t w : input.faces[f]) of_wedges[w].add(plane);
+  }
 }
 
-Vec5 TextureQemMetric::point(std::uint32_t vertex, std::uint32_t wedge) const {
-  const glm::dvec3 p = glm::dvec3(positions_[vertex]) - centre_;
-  const glm::dvec2 t = scale_ * glm::dvec2(texcoords_[wedge]);
+Vec5 TextureQuadrics::point(std::uint32_t vertex, std::uint32_t wedge) const {
+  const glm::dvec3 p = glm::dvec3(positions[vertex]) - centre;
+  const glm::dvec2 t = scale * glm::dvec2(texcoords[wedge]);
   return {p.x, p.y, p.z, t.x, t.y};
 }
 
-void TextureQemMetric::add_faces(const WedgeMesh& input) {
-  double area_sum = 0, texture_area_sum = 0;
-  const auto area_of = [&](const Triangle& f) {
-    const auto at = [&](std::size_t k) { return glm::dvec3(positions_[input.wedge_vertex[f[k]]]); };
-    return 0.5 * glm::length(glm::cross(at(1) - at(0), at(2) - at(0)));
-  };
-  for (const Triangle& f : input.faces) {
-    const glm::dvec2 a = texcoords_[f[0]], b = texcoords_[f[1]], c = texcoords_[f[2]];
-    area_sum += area_of(f);
-    texture_area_sum += 0.5 * std::abs((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x));
-  }
-  if (texture_area_sum > 0)
-    scale_ = options_.texture_weight * std::sqrt(area_sum / texture_area_sum);
-  for (const Triangle& f : input.faces) {
-    const double area = area_of(f);
-    if (!(area > 0)) continue;
-    const auto at = [&](std::size_t k) { return point(input.wedge_vertex[f[k]], f[k]); };
-    Quadric5 plane;
-    plane.add_triangle(at(0), at(1), at(2), options_.qem.area_weighted ? area / 3 : 1);
-    for (const std::uint32_t w : f) quadrics_[w].add(plane);
-  }
+void TextureQuadrics::merge(std::uint32_t u, std::uint32_t v,
+                            const std::vector<WedgeTable::Pair>& pairs) {
+  for (const auto& [from, to] : pairs) of_wedges[to].add(of_wedges[from]);
+  boundaries[v].add(boundaries[u]);
 }
 
 float TextureQemMetric::cost(std::uint32_t u, std::uint32_t v) {
   if (!wedges_.match(mesh_, u, v, false)) return std::numeric_limits<float>::infinity();
-  const glm::dvec3 place = glm::dvec3(positions_[v]) - centre_;
-  double value = boundaries_[u].value(place) + boundaries_[v].value(place);
-  double weight = boundaries_[u].weight + boundaries_[v].weight;
+  const glm::dvec3 place = glm::dvec3(quadrics_.positions[v]) - quadrics_.centre;
+  double value = quadrics_.boundaries[u].value(place) + quadrics_.boundaries[v].value(place);
+  double weight = quadrics_.boundaries[u].weight + quadrics_.boundaries[v].weight;
   const auto add_wedge = [&](std::uint32_t of, std::uint32_t at) {
-    value += quadrics_[of].value(point(v, at));
-    weight += quadrics_[of].weight;
+    value += quadrics_.of_wedges[of].value(quadrics_.point(v, at));
+    weight += quadrics_.of_wedges[of].weight;
   };
   others_.clear();
   for (const auto& [from, to] : wedges_.pairs()) {
@@ -129,13 +159,62 @@ float TextureQemMetric::cost(std::uint32_t u, std::uint32_t v) {
     add_wedge(w, w);
     others_.push_back(w);
   });
-  return cost_scale_.cost(value, weight);
+  return quadrics_.cost_scale.cost(value, weight);
 }
 
-// The table's pairs are those of the collapse that was just made.
-void TextureQemMetric::traced(std::uint32_t u, std::uint32_t v, const CollapseTrace&) {
-  for (const auto& [from, to] : wedges_.pairs()) quadrics_[to].add(quadrics_[from]);
-  boundaries_[v].add(boundaries_[u]);
+const TextureQemFullMetric::Evaluated& TextureQemFullMetric::evaluate(std::uint32_t u,
+                                                                      std::uint32_t v) {
+  if (u > v) std::swap(u, v);  // the same sums from either side
+  last_ = {std::numeric_limits<float>::infinity(), positions_[v], {}};
+  if (!wedges_.match(mesh_, u, v, true)) return last_;
+  wedges_.pairs().size() == 1 ? place_freely(u, v) : place_on_edge(u, v);
+  return last_;
+}
+
+void TextureQemFullMetric::place_freely(std::uint32_t u, std::uint32_t v) {
+  const auto [from, to] = wedges_.pairs()[0];
+  Quadric5 sum = quadrics_.of_wedges[from];
+  sum.add(quadrics_.of_wedges[to]);
+  sum.add(quadrics_.boundaries[u]);
+  sum.add(quadrics_.boundaries[v]);
+  const Vec5 a = quadrics_.point(u, from), b = quadrics_.point(v, to);
+  Vec5 middle;
+  for (std::size_t i = 0; i < 5; ++i) middle[i] = 0.5 * (a[i] + b[i]);
+  const Vec5 x = sum.minimiser(middle);
+  last_.cost = quadrics_.cost_scale.cost(sum.value(x), sum.weight);
+  last_.place = glm::vec3(quadrics_.centre + glm::dvec3(x[0], x[1], x[2]));
+  if (quadrics_.scale > 0) last_.texcoord = glm::vec2(glm::dvec2(x[3], x[4]) / quadrics_.scale);
+}
+
+// The sum is quadratic along the edge: its values at both ends and in the middle tell all.
+void TextureQemFullMetric::place_on_edge(std::uint32_t u, std::uint32_t v) {
+  double weight = 0;
+  const auto value_at = [&](double along) {
+    double value = 0;
+    weight = 0;
+    const auto add = [&](const Quadric5& quadric, const Vec5& x) {
+      value += quadric.value(x), weight += quadric.weight;
+    };
+    for (const auto& [from, to] : wedges_.pairs()) {
+      const Vec5 a = quadrics_.point(u, from);
+      Vec5 x = quadrics_.point(v, to);
+      for (std::size_t i = 0; i < 5; ++i) x[i] += along * (a[i] - x[i]);
+      add(quadrics_.of_wedges[from], x);
+      add(quadrics_.of_wedges[to], x);
+    }
+    const glm::dvec3 p =
+        glm::mix(glm::dvec3(positions_[v]), glm::dvec3(positions_[u]), along) - quadrics_.centre;
+    for (const std::uint32_t w : {u, v}) {
+      value += quadrics_.boundaries[w].value(p);
+      weight += quadrics_.boundaries[w].weight;
+    }
+    return value;
+  };
+  const double f0 = value_at(0), f1 = value_at(1), middle = value_at(0.5);
+  const double bend = 2 * (f0 + f1 - 2 * middle), slope = f1 - f0 - bend;
+  const double along = bend > 0 ? std::clamp(-slope / (2 * bend), 0.0, 1.0) : (f1 < f0 ? 1 : 0);
+  last_.cost = quadrics_.cost_scale.cost(value_at(along), weight);
+  last_.place = glm::vec3(glm::mix(glm::dvec3(positions_[v]), glm::dvec3(positions_[u]), along));
 }
 
 }  // namespace viewcell

@@ -1,7 +1,9 @@
-// Quadrics over position and texture, as a metric of CollapseLoop.
+// Quadrics over position and texture, as metrics of CollapseLoop.
 #pragma once
 
 #include <array>
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "pm/qem.h"
@@ -20,7 +22,12 @@ struct Quadric5 {
 
   void add_triangle(const Vec5& p, const Vec5& q, const Vec5& r, double w);
   void add(const Quadric5& q);
+  /// A quadric of positions only.
+  void add(const Quadric& q);
   double value(const Vec5& x) const;
+  /// Where value() is least. Where the planes leave a direction all but free (below 1e-6 of the
+  /// stiffest) the point stays beside `anchor` in it.
+  Vec5 minimiser(const Vec5& anchor) const;
 };
 
 struct TextureQemOptions {
@@ -30,35 +37,87 @@ struct TextureQemOptions {
   double texture_weight = 1;
 };
 
-/// Half-edge collapses; each wedge gathers the planes of its own faces, so that texture charts do
-/// not mix, and goes to the wedge of v in its chart. Boundary edges are held in space, as in qem3.
+/// What both placements share: each wedge gathers the planes of its own faces, so that texture
+/// charts do not mix. Boundary edges are held in space, as in qem3. Keeps references.
+struct TextureQuadrics {
+  std::span<const glm::vec3> positions;
+  const std::vector<glm::vec2>& texcoords;  ///< of wedges, as they are now
+  glm::dvec3 centre;                        ///< of the box: positions are relative to it
+  double scale = 0;                         ///< of texture coordinates
+  QuadricScale cost_scale;
+  std::vector<Quadric5> of_wedges;
+  std::vector<Quadric> boundaries;  ///< by vertex
+
+  TextureQuadrics(const WedgeMesh& input, std::span<const glm::vec3> positions,
+                  const std::vector<glm::vec2>& texcoords, const TextureQemOptions& options);
+  Vec5 point(std::uint32_t vertex, std::uint32_t wedge) const;
+  /// u has collapsed into v.
+  void merge(std::uint32_t u, std::uint32_t v, const std::vector<WedgeTable::Pair>& pairs);
+};
+
+/// Half-edge collapses; wedges go to the wedges of v in their charts.
 /// Follows: [Garland, Heckbert 1998].
 class TextureQemMetric {
  public:
   /// Keeps references; wedges is the table while the mesh collapses.
   TextureQemMetric(const CollapseMesh& mesh, const WedgeMesh& input, WedgeTable& wedges,
-                   std::span<const glm::vec3> positions, const TextureQemOptions& options = {});
+                   std::span<const glm::vec3> positions, const TextureQemOptions& options = {})
+      : mesh_(mesh), wedges_(wedges), quadrics_(input, positions, input.texcoords, options) {}
 
   float cost(std::uint32_t u, std::uint32_t v);
   bool allows(const CollapseMesh&, std::uint32_t, std::uint32_t) const { return true; }
-  void traced(std::uint32_t u, std::uint32_t v, const CollapseTrace& trace);
+  void traced(std::uint32_t u, std::uint32_t v, const CollapseTrace&) {
+    quadrics_.merge(u, v, wedges_.pairs());
+  }
   void collapsed(std::uint32_t, std::uint32_t) {}
 
  private:
-  Vec5 point(std::uint32_t vertex, std::uint32_t wedge) const;
-  void add_faces(const WedgeMesh& input);
+  const CollapseMesh& mesh_;
+  WedgeTable& wedges_;
+  TextureQuadrics quadrics_;
+  std::vector<std::uint32_t> others_;  // scratch: wedges of v that no wedge of u goes to
+};
+
+/// Full-edge collapses into the position and texture coordinates where the quadrics' sum is least;
+/// along chart borders, and where the charts do not match, on the edge. Moves positions.
+/// Follows: [Garland, Heckbert 1998].
+class TextureQemFullMetric {
+ public:
+  /// Keeps references; wedges is the table while the mesh collapses, texcoords those of its wedges,
+  /// which somebody else moves.
+  TextureQemFullMetric(const CollapseMesh& mesh, const WedgeMesh& input, WedgeTable& wedges,
+                       std::span<glm::vec3> positions, const std::vector<glm::vec2>& texcoords,
+                       const TextureQemOptions& options = {})
+      : mesh_(mesh),
+        wedges_(wedges),
+        positions_(positions),
+        quadrics_(input, positions, texcoords, options) {}
+
+  float cost(std::uint32_t u, std::uint32_t v) { return evaluate(u, v).cost; }
+  glm::vec3 place(std::uint32_t u, std::uint32_t v) { return evaluate(u, v).place; }
+  /// Of the last place(): texture coordinates for its one pair of wedges, if there is one.
+  const std::optional<glm::vec2>& texcoord() const { return last_.texcoord; }
+  bool allows(const CollapseMesh&, std::uint32_t, std::uint32_t) const { return true; }
+  void traced(std::uint32_t u, std::uint32_t v, const CollapseTrace&) {
+    quadrics_.merge(u, v, wedges_.pairs());
+  }
+  void collapsed(std::uint32_t, std::uint32_t v, const glm::vec3& place) { positions_[v] = place; }
+
+ private:
+  struct Evaluated {
+    float cost = 0;
+    glm::vec3 place{0};
+    std::optional<glm::vec2> texcoord;
+  };
+  const Evaluated& evaluate(std::uint32_t u, std::uint32_t v);
+  void place_freely(std::uint32_t u, std::uint32_t v);
+  void place_on_edge(std::uint32_t u, std::uint32_t v);
 
   const CollapseMesh& mesh_;
   WedgeTable& wedges_;
-  std::span<const glm::vec3> positions_;
-  const std::vector<glm::vec2>& texcoords_;
-  TextureQemOptions options_;
-  glm::dvec3 centre_;
-  double scale_ = 0;  // of texture coordinates
-  QuadricScale cost_scale_;
-  std::vector<Quadric5> quadrics_;     // by wedge
-  std::vector<Quadric> boundaries_;    // by vertex
-  std::vector<std::uint32_t> others_;  // scratch: wedges of v that no wedge of u goes to
+  std::span<glm::vec3> positions_;
+  TextureQuadrics quadrics_;
+  Evaluated last_;
 };
 
 }  // namespace viewcell

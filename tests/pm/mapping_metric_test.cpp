@@ -49,8 +49,10 @@ struct Parts {
         mesh(wedges.positions, triangles),
         table(wedges) {}
   bool turns_over(std::uint32_t u, std::uint32_t v) {
-    return table.match(mesh, u, v, false) &&
-           turns_over_texture(mesh, table, wedges.texcoords, u, v, 0);
+    if (!table.match(mesh, u, v, false)) return false;
+    std::vector<glm::vec2> merged;
+    for (const auto& pair : table.pairs()) merged.push_back(wedges.texcoords[pair.to]);
+    return turns_over_texture(mesh, table, wedges.texcoords, u, v, merged, false);
   }
   MappingMetric metric(Matching matching, bool total) {
     return {mesh,
@@ -370,6 +372,7 @@ TEST(MappingMetric, NoFaceTurnsOverInTheTexture) {
                                           {MetricKind::mapping, Placement::half},
                                           {MetricKind::mapping, Placement::full},
                                           {MetricKind::qem5, Placement::half},
+                                          {MetricKind::qem5, Placement::full},
                                           {MetricKind::qem3, Placement::half},
                                           {MetricKind::lt, Placement::full}}) {
       SCOPED_TRACE(std::string(metric_name(kind)) + " " + std::to_string(seed));
@@ -457,9 +460,12 @@ TEST(MappingMetric, NeedsTextureCoordinates) {
     BuildOptions options;
     options.metric = kind;
     EXPECT_THROW(build_progressive_mesh(make_octahedron(), options), InputError);
-    if (kind == MetricKind::mapping) continue;
     options.placement = Placement::full;
-    EXPECT_THROW(build_progressive_mesh(make_octahedron(), options), UsageError);
+    if (kind == MetricKind::aps) {
+      EXPECT_THROW(build_progressive_mesh(make_octahedron(), options), UsageError);
+    } else if (kind == MetricKind::qem5) {
+      EXPECT_THROW(build_progressive_mesh(make_octahedron(), options), InputError);
+    }
   }
 }
 

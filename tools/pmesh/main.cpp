@@ -34,8 +34,8 @@ CLI::App& declare_build(CLI::App& app, Arguments& a) {
                   "Lindstrom-Turk, memoryless")
       ->capture_default_str();
   build.add_option("--placement", a.placement,
-                   "half: a vertex goes to its neighbour; full: both to the best place (qem3, lt, "
-                   "mapping; default: half, for lt full)");
+                   "half: a vertex goes to its neighbour; full: both to the best place (not "
+                   "for aps; default: half, for lt full)");
   build
       .add_option("--error", a.error,
                   "aps, mapping: total, from the input, or incremental, from the step before")
