@@ -166,10 +166,11 @@ TEST(LindstromTurk, FlatOutlinesKeepTheirArea) {
 }
 
 TEST(TextureQem, ConstantTextureIsQem3) {
-  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     TriMesh mesh = make_noisy_sphere(3, 0.1, seed);
     mesh.triangles.resize(mesh.triangles.size() - 40);  // with a boundary
     BuildOptions options;
+    options.placement = seed % 2 ? Placement::half : Placement::full;
     const ProgressiveRecord qem3 = build_progressive_mesh(mesh, options).record;
     mesh.texcoords.assign(3 * mesh.triangles.size(), {0.25f, 0.75f});
     options.metric = MetricKind::qem5;
@@ -177,6 +178,67 @@ TEST(TextureQem, ConstantTextureIsQem3) {
     ASSERT_EQ(qem5.splits.size(), qem3.splits.size());
     for (std::size_t i = 0; i < qem3.splits.size(); ++i)
       ASSERT_NEAR(qem5.splits[i].cost, qem3.splits[i].cost, 1e-5 + 1e-3 * qem3.splits[i].cost) << i;
+  }
+}
+
+// Position and texture coordinates together, for a vertex inside its chart.
+TEST(TextureQemFull, PlacesWhereTheCostIsLeast) {
+  TriMesh mesh = make_noisy_sphere(2, 0.2, 4);
+  for (const Triangle& t : mesh.triangles)
+    for (const std::uint32_t v : t)
+      mesh.texcoords.emplace_back(0.3f * mesh.positions[v].x, 0.3f * mesh.positions[v].y);
+  WedgeMesh wedges = make_wedges(mesh);
+  CollapseMesh work(wedges.positions, wedges.vertex_triangles());
+  WedgeTable table(wedges);
+  TextureQemFullMetric metric(work, wedges, table, wedges.positions, wedges.texcoords);
+  const TextureQuadrics quadrics(wedges, wedges.positions, wedges.texcoords, {});
+  Random random(2);
+  for (const Triangle& t : wedges.faces) {
+    Quadric5 sum = quadrics.of_wedges[t[0]];
+    sum.add(quadrics.of_wedges[t[1]]);
+    const glm::dvec3 p = glm::dvec3(metric.place(t[0], t[1])) - quadrics.centre;
+    ASSERT_TRUE(metric.texcoord());
+    const glm::dvec2 uv = quadrics.scale * glm::dvec2(*metric.texcoord());
+    const double least = sum.value({p.x, p.y, p.z, uv.x, uv.y});
+    EXPECT_NEAR(metric.cost(t[0], t[1]), quadrics.cost_scale.cost(least, sum.weight), 1e-4);
+    EXPECT_EQ(metric.place(t[0], t[1]), metric.place(t[1], t[0]));
+    for (int i = 0; i < 20; ++i) {
+      const auto off = [&] { return 0.1 * random.uniform(-1, 1); };
+      EXPECT_GE(sum.value({p.x + off(), p.y + off(), p.z + off(), uv.x + off(), uv.y + off()}),
+                least * (1 - 1e-4) - 1e-9);
+    }
+  }
+}
+
+// On a plane with an affine texture wherever the place is, its texture coordinates are the plane's
+// there; along the border of two charts both stay on it.
+TEST(TextureQemFull, FlatTexturesStay) {
+  TriMesh grid = make_flat_grid(8);
+  Random random(5);
+  for (glm::vec3& p : grid.positions)
+    if (p.x > 0 && p.x < 8 && p.x != 4 && p.y > 0 && p.y < 8)
+      p += glm::vec3(random.uniform(-0.2, 0.2), random.uniform(-0.2, 0.2), 0);
+  const auto uv_at = [](const glm::vec3& p, bool is_right) {
+    return glm::vec2(0.1f * p.x + 0.02f * p.y + (is_right ? 2 : 0), 0.3f - 0.1f * p.y);
+  };
+  for (const Triangle& t : grid.triangles) {
+    const bool is_right = (t[0] % 9) + (t[1] % 9) + (t[2] % 9) > 12;
+    for (const std::uint32_t v : t) grid.texcoords.push_back(uv_at(grid.positions[v], is_right));
+  }
+  BuildOptions options;
+  options.metric = MetricKind::qem5;
+  options.placement = Placement::full;
+  ProgressiveMesh pm(build_progressive_mesh(grid, options).record);
+  for (const std::size_t n : {100u, 60u, 30u}) {
+    pm.set_faces(n);
+    ASSERT_LE(pm.n_faces(), n);
+    const TriMesh mesh = pm.extract();
+    for (std::size_t c = 0; c < mesh.texcoords.size(); ++c) {
+      const glm::vec2 uv = mesh.texcoords[c];
+      const glm::vec3 p = mesh.positions[mesh.triangles[c / 3][c % 3]];
+      EXPECT_LT(glm::distance(uv, uv_at(p, uv.x > 1.5f)), 1e-4f);
+      EXPECT_TRUE(uv.x > 1.5f ? p.x > 4 - 1e-4f : p.x < 4 + 1e-4f) << p.x;
+    }
   }
 }
 
