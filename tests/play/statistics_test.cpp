@@ -8,7 +8,6 @@
 #include "base/random.h"
 #include "play/contact_sheet.h"
 #include "play/label.h"
-#include "play/plots.h"
 
 namespace viewcell {
 namespace {
@@ -180,75 +179,6 @@ TEST(Quality, CountsMissingAndCoveredPixels) {
   EXPECT_NEAR(q.mse, (41.0 * 41 + 71.0 * 71) / 4, 1e-9);
   EXPECT_NEAR(q.mse_covered, (41.0 * 41 + 71.0 * 71) / 3, 1e-9);
   EXPECT_DOUBLE_EQ(measure_coverage(reference), 0.5);
-}
-
-LinePlot make_plot() {
-  LinePlot plot;
-  plot.title = "a < b & c";
-  plot.x = {0, 1, 2, 3};
-  plot.lines = {{"one", "#123456", false, {1, 10, 100, 1000}},
-                {"two", "#654321", true, {5, kNotMeasured, 5, 5}}};
-  plot.marks = {1.5};
-  plot.mark_label = "mark";
-  return plot;
-}
-
-std::size_t count(const std::string& text, const std::string& what) {
-  std::size_t n = 0;
-  for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + 1)) ++n;
-  return n;
-}
-
-TEST(Plots, LinesLegendAndMarksAreThere) {
-  const std::string svg = format_svg(make_plot());
-  EXPECT_EQ(count(svg, "<path "), 2u);
-  EXPECT_EQ(count(svg, "stroke=\"#123456\""), 2u);  // line and legend
-  EXPECT_NE(svg.find("a &lt; b &amp; c"), std::string::npos);
-  EXPECT_EQ(count(svg, "#b8c4d6"), 2u);
-  EXPECT_EQ(svg.find("nan"), std::string::npos);
-  EXPECT_EQ(svg.rfind("</svg>\n"), svg.size() - 7);
-}
-
-// On a log axis equal factors are equal steps: 1, 10, 100, 1000 lie on a straight line.
-TEST(Plots, LogAxisIsLogarithmic) {
-  LinePlot plot = make_plot();
-  plot.log_y = true;
-  plot.lines.pop_back();
-  const std::string svg = format_svg(plot);
-  const std::size_t at = svg.find("<path d=\"M") + 10;
-  double x[4], y[4];
-  ASSERT_EQ(std::sscanf(svg.c_str() + at, "%lf %lf L%lf %lf L%lf %lf L%lf %lf", &x[0], &y[0], &x[1],
-                        &y[1], &x[2], &y[2], &x[3], &y[3]),
-            8);
-  for (int i = 0; i + 2 < 4; ++i) EXPECT_NEAR(y[i] - y[i + 1], y[i + 1] - y[i + 2], 0.21);
-  EXPECT_GT(y[0], y[3] + 100);  // upward
-}
-
-TEST(Plots, NaNBreaksALine) {
-  const std::string svg = format_svg(make_plot());
-  const std::size_t at = svg.rfind("<path d=\"");
-  EXPECT_EQ(count(svg.substr(at, svg.find("/>", at) - at), "M"), 2u);
-}
-
-TEST(Plots, DegenerateDataStillMakesAPlot) {
-  LinePlot plot = make_plot();
-  plot.x = {2};
-  plot.lines = {{"flat", "#000000", false, {3}}, {"none", "#111111", false, {kNotMeasured}}};
-  EXPECT_EQ(format_svg(plot).find("nan"), std::string::npos);
-  plot.lines.clear();
-  EXPECT_EQ(format_svg(plot).find("nan"), std::string::npos);
-  plot.log_y = true;
-  plot.lines = {{"zero", "#000000", false, {0}}};
-  EXPECT_EQ(format_svg(plot).find("inf"), std::string::npos);
-}
-
-TEST(Plots, ValuesOverTheMostDoNotStretchTheAxis) {
-  LinePlot plot = make_plot();
-  plot.lines = {{"db", "#000000", false, {30, 40, 100, 35}}};
-  plot.y_most = 50;
-  const std::string svg = format_svg(plot);
-  EXPECT_EQ(svg.find(">100<"), std::string::npos);
-  EXPECT_NE(svg.find(">50<"), std::string::npos);
 }
 
 // 'I' is a bar with feet: columns 1 and 3 have dots at top and bottom only.

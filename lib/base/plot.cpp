@@ -1,0 +1,277 @@
+#include "base/plot.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
+
+#include "base/error.h"
+#include "base/plot_axis.h"
+#include "base/svg.h"
+
+namespace viewcell {
+namespace {
+
+constexpr double kWidth = 960, kMargin = 16;
+constexpr double kFirstLeft = 72, kNextLeft = 52;  // of a panel's axes, from what is left of it
+constexpr double kTitleHeight = 40, kLegendLine = 20, kPanelTitle = 22, kBelow = 58;
+constexpr double kMostDrawn = 1e100;  // sums and factors of such values are finite
+
+// Okabe and Ito 2008: told apart by readers who confuse red and green. Its yellow is too pale.
+constexpr std::array<const char*, 8> kColors{"#0072b2", "#d55e00", "#009e73", "#cc79a7",
+                                             "#e69f00", "#56b4e9", "#000000", "#888888"};
+constexpr const char* kMarkColor = "#b8c4d6";
+
+// --- lines, as they are drawn ---
+
+struct LineStyle {
+  std::string name, color, dashes;
+  std::size_t shape = 0;  // of the marks at points
+};
+
+LineStyle make_style(const PlotLine& line, std::size_t place) {
+  const std::size_t round = place / kColors.size();
+  LineStyle style{line.name, line.color, "", place};
+  if (line.color.empty()) {
+    style.color = kColors[place % kColors.size()];
+    if (round % 3 > 0) style.dashes = round % 3 == 1 ? "6 4" : "2 3";
+  }
+  if (line.dashed) style.dashes = "5 4";
+  return style;
+}
+
+// A style a name, in the order of the lines.
+std::vector<LineStyle> collect_styles(const Plot& plot) {
+  std::vector<LineStyle> styles;
+  std::set<std::string> seen;
+  for (const PlotPanel& panel : plot.panels)
+    for (const PlotLine& line : panel.lines)
+      if (seen.insert(line.name).second) styles.push_back(make_style(line, styles.size()));
+  return styles;
+}
+
+const LineStyle& style_of(const PlotLine& line, const std::vector<LineStyle>& styles) {
+  return *std::find_if(styles.begin(), styles.end(),
+                       [&](const LineStyle& s) { return s.name == line.name; });
+}
+
+std::string stroke(const LineStyle& style, double width) {
+  return "stroke=\"" + style.color + "\" stroke-width=\"" + svg_number(width) + "\"" +
+         (style.dashes.empty() ? "" : " stroke-dasharray=\"" + style.dashes + "\"");
+}
+
+// --- marks at points ---
+
+struct Corner {
+  double x, y;
+};
+
+// Shapes of about the same area, 1 px in radius.
+std::vector<Corner> mark_corners(std::size_t shape) {
+  switch (shape % 6) {
+    case 0: {
+      std::vector<Corner> circle;
+      for (int k = 0; k < 12; ++k)
+        circle.push_back({std::cos(k * M_PI / 6), std::sin(k * M_PI / 6)});
+      return circle;
+    }
+    case 1:
+      return {{-0.9, -0.9}, {0.9, -0.9}, {0.9, 0.9}, {-0.9, 0.9}};
+    case 2:
+      return {{0, -1.25}, {1.15, 0.8}, {-1.15, 0.8}};
+    case 3:
+      return {{0, -1.3}, {1.3, 0}, {0, 1.3}, {-1.3, 0}};
+    case 4:
+      return {{0, 1.25}, {1.15, -0.8}, {-1.15, -0.8}};
+    default:
+      return {{-1.3, -0.45}, {-0.45, -0.45}, {-0.45, -1.3}, {0.45, -1.3},
+              {0.45, -0.45}, {1.3, -0.45},   {1.3, 0.45},   {0.45, 0.45},
+              {0.45, 1.3},   {-0.45, 1.3},   {-0.45, 0.45}, {-1.3, 0.45}};
+  }
+}
+
+std::string draw_mark(double x, double y, std::size_t shape) {
+  constexpr double kRadius = 3;
+  std::string path;
+  for (const Corner& corner : mark_corners(shape))
+    path += (path.empty() ? "M" : "L") + svg_number(x + kRadius * corner.x) + " " +
+            svg_number(y + kRadius * corner.y);
+  return path + "Z";
+}
+
+std::string fill_marks(const std::string& path, const LineStyle& style) {
+  return "<path d=\"" + path + "\" fill=\"" + style.color + "\"/>\n";
+}
+
+// --- a panel ---
+
+struct PanelBox {
+  double left, right, top, bottom;  // of the axes
+  bool is_first;
+};
+
+bool is_drawable(double value, bool log) {
+  return std::isfinite(value) && std::abs(value) <= kMostDrawn && (!log || value >= 1 / kMostDrawn);
+}
+
+bool is_drawn(const PlotPanel& panel, const PlotLine& line, std::size_t i) {
+  return is_drawable(line.x[i], panel.log_x) && is_drawable(line.y[i], panel.log_y);
+}
+
+// Where the step of point i ends.
+double step_end(const PlotPanel& panel, const PlotLine& line, std::size_t i) {
+  const std::size_t n = line.x.size();
+  if (i + 1 < n) return line.x[i + 1];
+  if (n < 2) return line.x[i];
+  const double before = line.x[n - 2], last = line.x[n - 1];
+  return panel.log_x ? last * (last / before) : last + (last - before);
+}
+
+struct PanelAxes {
+  PlotAxis x, y;
+};
+
+PanelAxes make_axes(const PlotPanel& panel, const PanelBox& box, PlotStyle style) {
+  ValueRange xs, ys;
+  for (const PlotLine& line : panel.lines)
+    for (std::size_t i = 0; i < line.x.size(); ++i) {
+      if (!is_drawn(panel, line, i)) continue;
+      xs.add(line.x[i]);
+      ys.add(std::clamp(line.y[i], panel.y_least, panel.y_most));
+      if (style != PlotStyle::steps) continue;
+      const double end = step_end(panel, line, i);
+      if (is_drawable(end, panel.log_x)) xs.add(end);
+      if (!panel.log_y) ys.add(0);
+    }
+  if (panel.log_y && !ys.is_empty() && !(ys.lo > 0)) ys.lo = ys.hi;  // y_most is not above 0
+  return {make_axis(xs, {panel.log_x, box.left, box.right, panel.log_x ? 36.0 : 60.0, false}),
+          make_axis(ys, {panel.log_y, box.bottom, box.top, panel.log_y ? 20.0 : 36.0, true})};
+}
+
+std::string draw_axes(const PlotPanel& panel, const PanelBox& box, const PanelAxes& axes) {
+  std::string out;
+  for (std::size_t k = 0; k < axes.y.ticks.size(); ++k) {
+    const double y = axes.y.at(axes.y.ticks[k]);
+    out += svg_line(box.left, y, box.right, y, "stroke=\"#e4e4e4\"");
+    out += svg_text(box.left - 8, y + 4, "end", axes.y.labels[k]);
+  }
+  for (std::size_t k = 0; k < axes.x.ticks.size(); ++k) {
+    const double x = axes.x.at(axes.x.ticks[k]);
+    out += svg_line(x, box.bottom, x, box.bottom + 5, "stroke=\"#888\"");
+    out += svg_text(x, box.bottom + 19, "middle", axes.x.labels[k]);
+  }
+  for (const double mark : panel.marks)
+    out += svg_line(axes.x.at(mark), box.top, axes.x.at(mark), box.bottom,
+                    std::string("stroke=\"") + kMarkColor + "\"");
+  out += svg_line(box.left, box.bottom, box.right, box.bottom, "stroke=\"#888\"");
+  out += svg_line(box.left, box.top, box.left, box.bottom, "stroke=\"#888\"");
+  return out;
+}
+
+std::string draw_words(const PlotPanel& panel, const PanelBox& box) {
+  const double middle = 0.5 * (box.left + box.right);
+  std::string out = svg_text(middle, box.bottom + 42, "middle", panel.x_label);
+  if (!panel.title.empty())
+    out += svg_text(middle, box.top - 8, "middle", panel.title, "font-weight=\"bold\"");
+  if (!panel.y_label.empty() && box.is_first)
+    out += "<text transform=\"translate(18 " + svg_number(0.5 * (box.top + box.bottom)) +
+           ") rotate(-90)\" text-anchor=\"middle\">" + svg_escape(panel.y_label) + "</text>\n";
+  return out;
+}
+
+std::string draw_line(const PlotPanel& panel, const PlotLine& line, const LineStyle& style,
+                      const PanelAxes& axes, PlotStyle kind) {
+  std::string path, marks;
+  bool is_broken = true;
+  for (std::size_t i = 0; i < line.x.size(); ++i) {
+    if (!is_drawn(panel, line, i)) {
+      is_broken = true;
+      continue;
+    }
+    const double x = axes.x.at(line.x[i]), y = axes.y.at(line.y[i]);
+    path += (path.empty() ? "" : " ") + std::string(is_broken ? "M" : "L") + svg_number(x) + " " +
+            svg_number(y);
+    if (kind == PlotStyle::points) marks += draw_mark(x, y, style.shape);
+    if (const double end = step_end(panel, line, i);
+        kind == PlotStyle::steps && is_drawable(end, panel.log_x))
+      path += " L" + svg_number(axes.x.at(end)) + " " + svg_number(y);
+    is_broken = false;
+  }
+  if (path.empty()) return "";
+  return "<path d=\"" + path + "\" fill=\"none\" " + stroke(style, 1.6) +
+         " stroke-linejoin=\"round\" stroke-linecap=\"round\"/>\n" +
+         (marks.empty() ? "" : fill_marks(marks, style));
+}
+
+std::string draw_panel(const Plot& plot, const PlotPanel& panel, const PanelBox& box,
+                       const std::vector<LineStyle>& styles) {
+  const PanelAxes axes = make_axes(panel, box, plot.style);
+  std::string out = draw_axes(panel, box, axes) + draw_words(panel, box);
+  for (const PlotLine& line : panel.lines)
+    out += draw_line(panel, line, style_of(line, styles), axes, plot.style);
+  return out;
+}
+
+// --- what stands above the panels ---
+
+struct Legend {
+  std::string svg;
+  double bottom = 0;
+};
+
+Legend draw_legend(const Plot& plot, const std::vector<LineStyle>& styles, double left) {
+  Legend legend;
+  double x = left, y = kTitleHeight + 8;
+  const auto place = [&](const std::string& name, const std::string& attributes) {
+    const double width = 30 + svg_text_width(name) + 20;
+    if (x > left && x + width > kWidth) x = left, y += kLegendLine;
+    legend.svg += svg_line(x, y, x + 24, y, attributes) + svg_text(x + 30, y + 4, "start", name);
+    x += width;
+  };
+  for (const LineStyle& style : styles) {
+    place(style.name, stroke(style, 2.4));
+    if (plot.style == PlotStyle::points)
+      legend.svg +=
+          fill_marks(draw_mark(x - svg_text_width(style.name) - 38, y, style.shape), style);
+  }
+  const bool has_marks = std::any_of(plot.panels.begin(), plot.panels.end(),
+                                     [](const PlotPanel& panel) { return !panel.marks.empty(); });
+  if (has_marks) place(plot.mark_label, std::string("stroke=\"") + kMarkColor + "\"");
+  legend.bottom = y + kLegendLine;
+  return legend;
+}
+
+std::string draw_title(const std::string& title, double left) {
+  const double room = (kWidth - kMargin - left) / std::max(1.0, svg_text_width(title, 1.1));
+  return svg_text(left, 28, "start", title,
+                  "font-size=\"" + svg_number(std::min(16.0, room)) + "\" font-weight=\"bold\"");
+}
+
+void check(const Plot& plot) {
+  VIEWCELL_CHECK(!plot.panels.empty() && plot.panels.size() <= kMostPanels, plot.panels.size());
+  for (const PlotPanel& panel : plot.panels)
+    for (const PlotLine& line : panel.lines)
+      VIEWCELL_CHECK(line.x.size() == line.y.size(), line.name, line.x.size(), line.y.size());
+}
+
+}  // namespace
+
+std::string format_svg(const Plot& plot) {
+  check(plot);
+  const std::vector<LineStyle> styles = collect_styles(plot);
+  const Legend legend = draw_legend(plot, styles, kFirstLeft);
+  const auto n = static_cast<double>(plot.panels.size());
+  const bool has_titles = std::any_of(plot.panels.begin(), plot.panels.end(),
+                                      [](const PlotPanel& panel) { return !panel.title.empty(); });
+  const double width = (kWidth - kMargin - kFirstLeft - (n - 1) * kNextLeft) / n;
+  const double top = legend.bottom + (has_titles ? kPanelTitle : 0);
+  const double bottom = top + (n > 1 ? 270 : 310);
+  std::string content = draw_title(plot.title, kFirstLeft) + legend.svg;
+  for (std::size_t k = 0; k < plot.panels.size(); ++k) {
+    const double left = kFirstLeft + static_cast<double>(k) * (width + kNextLeft);
+    content += draw_panel(plot, plot.panels[k], {left, left + width, top, bottom, k == 0}, styles);
+  }
+  return svg_document(kWidth, bottom + kBelow, plot.title, content);
+}
+
+}  // namespace viewcell
