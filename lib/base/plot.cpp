@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kWidth = 960, kMargin = 16;
 constexpr double kFirstLeft = 72, kNextLeft = 52;  // of a panel's axes, from what is left of it
-constexpr double kTitleHeight = 40, kLegendLine = 20, kPanelTitle = 22, kBelow = 58;
+constexpr double kTitleHeight = 40, kLegendLine = 20, kPanelTitle = 22, kBelow = 52;
 constexpr double kMostDrawn = 1e100;  // sums and factors of such values are finite
 
 // Okabe and Ito 2008: told apart by readers who confuse red and green. Its yellow is too pale.
@@ -26,7 +26,7 @@ constexpr const char* kMarkColor = "#b8c4d6";
 
 struct LineStyle {
   std::string name, color, dashes;
-  std::size_t shape = 0;  // of the marks at points
+  std::size_t place = 0;
 };
 
 LineStyle make_style(const PlotLine& line, std::size_t place) {
@@ -62,45 +62,36 @@ std::string stroke(const LineStyle& style, double width) {
 
 // --- marks at points ---
 
-struct Corner {
-  double x, y;
-};
-
-// Shapes of about the same area, 1 px in radius.
-std::vector<Corner> mark_corners(std::size_t shape) {
+// Shapes of about the same area, all told apart when they are small.
+const char* mark_path(std::size_t shape) {
   switch (shape % 6) {
-    case 0: {
-      std::vector<Corner> circle;
-      for (int k = 0; k < 12; ++k)
-        circle.push_back({std::cos(k * M_PI / 6), std::sin(k * M_PI / 6)});
-      return circle;
-    }
+    case 0:
+      return "M3.3 0A3.3 3.3 0 1 1 -3.3 0A3.3 3.3 0 1 1 3.3 0Z";  // a disk
     case 1:
-      return {{-0.9, -0.9}, {0.9, -0.9}, {0.9, 0.9}, {-0.9, 0.9}};
+      return "M-2.8 -2.8H2.8V2.8H-2.8Z";
     case 2:
-      return {{0, -1.25}, {1.15, 0.8}, {-1.15, 0.8}};
+      return "M0 -3.8L3.5 2.5H-3.5Z";
     case 3:
-      return {{0, -1.3}, {1.3, 0}, {0, 1.3}, {-1.3, 0}};
+      return "M0 -3.9L3.9 0L0 3.9L-3.9 0Z";
     case 4:
-      return {{0, 1.25}, {1.15, -0.8}, {-1.15, -0.8}};
+      return "M0 3.8L3.5 -2.5H-3.5Z";
     default:
-      return {{-1.3, -0.45}, {-0.45, -0.45}, {-0.45, -1.3}, {0.45, -1.3},
-              {0.45, -0.45}, {1.3, -0.45},   {1.3, 0.45},   {0.45, 0.45},
-              {0.45, 1.3},   {-0.45, 1.3},   {-0.45, 0.45}, {-1.3, 0.45}};
+      return "M-4 -1.4H-1.4V-4H1.4V-1.4H4V1.4H1.4V4H-1.4V1.4H-4Z";
   }
 }
 
-std::string draw_mark(double x, double y, std::size_t shape) {
-  constexpr double kRadius = 3;
-  std::string path;
-  for (const Corner& corner : mark_corners(shape))
-    path += (path.empty() ? "M" : "L") + svg_number(x + kRadius * corner.x) + " " +
-            svg_number(y + kRadius * corner.y);
-  return path + "Z";
+std::string mark_name(const LineStyle& style) {
+  return "mark-" + std::to_string(style.place);
 }
 
-std::string fill_marks(const std::string& path, const LineStyle& style) {
-  return "<path d=\"" + path + "\" fill=\"" + style.color + "\"/>\n";
+// What paths refer to: a mark a line.
+std::string define_marks(const std::vector<LineStyle>& styles) {
+  std::string out = "<defs>\n";
+  for (const LineStyle& style : styles)
+    out += "<marker id=\"" + mark_name(style) +
+           "\" markerUnits=\"userSpaceOnUse\" overflow=\"visible\"><path d=\"" +
+           mark_path(style.place) + "\" fill=\"" + style.color + "\"/></marker>\n";
+  return out + "</defs>\n";
 }
 
 // --- a panel ---
@@ -170,7 +161,7 @@ std::string draw_axes(const PlotPanel& panel, const PanelBox& box, const PanelAx
 
 std::string draw_words(const PlotPanel& panel, const PanelBox& box) {
   const double middle = 0.5 * (box.left + box.right);
-  std::string out = svg_text(middle, box.bottom + 42, "middle", panel.x_label);
+  std::string out = svg_text(middle, box.bottom + 40, "middle", panel.x_label);
   if (!panel.title.empty())
     out += svg_text(middle, box.top - 8, "middle", panel.title, "font-weight=\"bold\"");
   if (!panel.y_label.empty() && box.is_first)
@@ -179,28 +170,34 @@ std::string draw_words(const PlotPanel& panel, const PanelBox& box) {
   return out;
 }
 
-std::string draw_line(const PlotPanel& panel, const PlotLine& line, const LineStyle& style,
-                      const PanelAxes& axes, PlotStyle kind) {
-  std::string path, marks;
+std::string trace_line(const PlotPanel& panel, const PlotLine& line, const PanelAxes& axes,
+                       PlotStyle kind) {
+  std::string path;
+  const auto add = [&](char verb, double x, double y) {
+    path += (path.empty() ? "" : " ") + std::string(1, verb) + svg_number(axes.x.at(x)) + " " +
+            svg_number(axes.y.at(y));
+  };
   bool is_broken = true;
   for (std::size_t i = 0; i < line.x.size(); ++i) {
-    if (!is_drawn(panel, line, i)) {
-      is_broken = true;
-      continue;
+    if (is_drawn(panel, line, i)) {
+      add(is_broken ? 'M' : 'L', line.x[i], line.y[i]);
+      const double end = step_end(panel, line, i);
+      if (kind == PlotStyle::steps && is_drawable(end, panel.log_x)) add('L', end, line.y[i]);
     }
-    const double x = axes.x.at(line.x[i]), y = axes.y.at(line.y[i]);
-    path += (path.empty() ? "" : " ") + std::string(is_broken ? "M" : "L") + svg_number(x) + " " +
-            svg_number(y);
-    if (kind == PlotStyle::points) marks += draw_mark(x, y, style.shape);
-    if (const double end = step_end(panel, line, i);
-        kind == PlotStyle::steps && is_drawable(end, panel.log_x))
-      path += " L" + svg_number(axes.x.at(end)) + " " + svg_number(y);
-    is_broken = false;
+    is_broken = !is_drawn(panel, line, i);
   }
+  return path;
+}
+
+std::string draw_line(const std::string& path, const LineStyle& style, PlotStyle kind) {
   if (path.empty()) return "";
+  const std::string mark = "=\"url(#" + mark_name(style) + ")\"";
   return "<path d=\"" + path + "\" fill=\"none\" " + stroke(style, 1.6) +
-         " stroke-linejoin=\"round\" stroke-linecap=\"round\"/>\n" +
-         (marks.empty() ? "" : fill_marks(marks, style));
+         " stroke-linejoin=\"round\" stroke-linecap=\"round\"" +
+         (kind == PlotStyle::points
+              ? " marker-start" + mark + " marker-mid" + mark + " marker-end" + mark
+              : "") +
+         "/>\n";
 }
 
 std::string draw_panel(const Plot& plot, const PlotPanel& panel, const PanelBox& box,
@@ -208,7 +205,7 @@ std::string draw_panel(const Plot& plot, const PlotPanel& panel, const PanelBox&
   const PanelAxes axes = make_axes(panel, box, plot.style);
   std::string out = draw_axes(panel, box, axes) + draw_words(panel, box);
   for (const PlotLine& line : panel.lines)
-    out += draw_line(panel, line, style_of(line, styles), axes, plot.style);
+    out += draw_line(trace_line(panel, line, axes, plot.style), style_of(line, styles), plot.style);
   return out;
 }
 
@@ -225,15 +222,17 @@ Legend draw_legend(const Plot& plot, const std::vector<LineStyle>& styles, doubl
   const auto place = [&](const std::string& name, const std::string& attributes) {
     const double width = 30 + svg_text_width(name) + 20;
     if (x > left && x + width > kWidth) x = left, y += kLegendLine;
-    legend.svg += svg_line(x, y, x + 24, y, attributes) + svg_text(x + 30, y + 4, "start", name);
+    // Three corners: a mark at the middle one.
+    legend.svg += "<polyline points=\"" + svg_number(x) + "," + svg_number(y) + " " +
+                  svg_number(x + 12) + "," + svg_number(y) + " " + svg_number(x + 24) + "," +
+                  svg_number(y) + "\" fill=\"none\" " + attributes + "/>\n" +
+                  svg_text(x + 30, y + 4, "start", name);
     x += width;
   };
-  for (const LineStyle& style : styles) {
-    place(style.name, stroke(style, 2.4));
-    if (plot.style == PlotStyle::points)
-      legend.svg +=
-          fill_marks(draw_mark(x - svg_text_width(style.name) - 38, y, style.shape), style);
-  }
+  for (const LineStyle& style : styles)
+    place(style.name, stroke(style, 2.4) + (plot.style == PlotStyle::points
+                                                ? " marker-mid=\"url(#" + mark_name(style) + ")\""
+                                                : ""));
   const bool has_marks = std::any_of(plot.panels.begin(), plot.panels.end(),
                                      [](const PlotPanel& panel) { return !panel.marks.empty(); });
   if (has_marks) place(plot.mark_label, std::string("stroke=\"") + kMarkColor + "\"");
@@ -256,6 +255,13 @@ void check(const Plot& plot) {
 
 }  // namespace
 
+std::size_t count_points(const PlotPanel& panel) {
+  std::size_t n = 0;
+  for (const PlotLine& line : panel.lines)
+    for (std::size_t i = 0; i < line.x.size(); ++i) n += is_drawn(panel, line, i);
+  return n;
+}
+
 std::string format_svg(const Plot& plot) {
   check(plot);
   const std::vector<LineStyle> styles = collect_styles(plot);
@@ -266,7 +272,8 @@ std::string format_svg(const Plot& plot) {
   const double width = (kWidth - kMargin - kFirstLeft - (n - 1) * kNextLeft) / n;
   const double top = legend.bottom + (has_titles ? kPanelTitle : 0);
   const double bottom = top + (n > 1 ? 270 : 310);
-  std::string content = draw_title(plot.title, kFirstLeft) + legend.svg;
+  std::string content = plot.style == PlotStyle::points ? define_marks(styles) : "";
+  content += draw_title(plot.title, kFirstLeft) + legend.svg;
   for (std::size_t k = 0; k < plot.panels.size(); ++k) {
     const double left = kFirstLeft + static_cast<double>(k) * (width + kNextLeft);
     content += draw_panel(plot, plot.panels[k], {left, left + width, top, bottom, k == 0}, styles);

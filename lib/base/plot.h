@@ -1,6 +1,7 @@
 // Line plots as SVG: one panel or a few side by side, one legend.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -37,6 +38,9 @@ struct Plot {
 };
 
 inline constexpr std::size_t kMostPanels = 4;
+
+/// Points of all lines that do not break them.
+std::size_t count_points(const PlotPanel& panel);
 
 /// 960 px wide, no scripts, no external fonts. Values beyond 1e100 break a line as well. The same
 /// plot gives the same bytes.

@@ -175,12 +175,13 @@ TEST(Plot, PanelsShareALegend) {
   const std::string svg = format_svg(plot);
   EXPECT_EQ(count(svg, ">one<"), 1u);
   EXPECT_EQ(count(svg, ">mark<"), 1u);
-  EXPECT_EQ(count(svg, "fill=\"none\""), 6u);
+  EXPECT_EQ(count(svg, "<marker "), 2u);
+  EXPECT_EQ(count(svg, "marker-start=\"url(#mark-1)\""), 3u);
   EXPECT_EQ(count(svg, ">panel 2<"), 1u);
-  // Of the line "one": paths at 0, 4, 8 after the legend's two marks; each panel right of the last.
+  // After the paths of two marks, two a panel; each panel right of the last.
   double right = 0;
   for (int k = 0; k < 3; ++k) {
-    const auto p = path_points(svg, 2 + 4 * k);
+    const auto p = path_points(svg, 2 + 2 * k);
     ASSERT_EQ(p.size(), 4u);
     EXPECT_GT(p[0].x, right + 40);
     right = p[3].x;
