@@ -78,7 +78,7 @@ std::string format_histogram(const SurfaceDistance& distance) {
   if (n == 0) return "";
   TableRows rows{{"up to", "forward %", "backward %"}};
   for (std::size_t k = 0; k < n; ++k)
-    rows.push_back({format_number(distance.symmetric().max * static_cast<double>(k + 1) /
+    rows.push_back({format_number(distance.histogram_most * static_cast<double>(k + 1) /
                                   static_cast<double>(n)),
                     format_share(forward.histogram[k], forward.n_face_samples),
                     format_share(backward.histogram[k], backward.n_face_samples)});
@@ -108,6 +108,7 @@ Json report_surface_distance(const SurfaceDistance& distance, const DistanceOpti
   json["forward"] = report_side(distance.forward);
   json["backward"] = report_side(distance.backward);
   json["symmetric"] = {{"max", symmetric.max}, {"mean", symmetric.mean}, {"rms", symmetric.rms}};
+  if (options.n_bins > 0) json["histogram_to"] = distance.histogram_most;
   json["samples"] = options.n_samples;
   json["seed"] = options.seed;
   json["bbox_diagonal"] = distance.bbox_diagonal;

@@ -159,6 +159,7 @@ std::vector<std::uint64_t> count_bins(const std::vector<double>& distances, doub
                                       std::size_t n_bins) {
   std::vector<std::uint64_t> bins(n_bins, 0);
   for (const double d : distances) {
+    if (d > most) continue;
     const double place = most > 0 ? d / most * static_cast<double>(n_bins) : 0;
     ++bins[std::min(static_cast<std::size_t>(place), n_bins - 1)];
   }
@@ -187,13 +188,26 @@ void change_units(OneSidedDistance& side, const glm::dvec3& origin, double facto
   side.worst.nearest = factor * (side.worst.nearest - origin);
 }
 
-void change_to_unit_cube(SurfaceDistance& distance, const Box& box) {
+double unit_cube_factor(const Box& box) {
   const glm::dvec3 size = box.size();
-  const double factor = 1 / std::max({size.x, size.y, size.z});
+  return 1 / std::max({size.x, size.y, size.z});
+}
+
+// most: where the last bin ends, in the units of the distances.
+void add_histograms(const Direction& forward, const Direction& backward, double most,
+                    std::size_t n_bins, SurfaceDistance& result) {
+  result.histogram_most = most;
+  result.forward.histogram = count_bins(forward.face_distances, most, n_bins);
+  result.backward.histogram = count_bins(backward.face_distances, most, n_bins);
+}
+
+void change_to_unit_cube(SurfaceDistance& distance, const Box& box) {
+  const double factor = unit_cube_factor(box);
   change_units(distance.forward, box.lo, factor);
   change_units(distance.backward, box.lo, factor);
   for (double& d : distance.vertex_distance) d *= factor;
   distance.bbox_diagonal *= factor;
+  distance.histogram_most *= factor;
   distance.units_per_model_unit = factor;
 }
 
@@ -217,9 +231,9 @@ SurfaceDistance measure_surface_distance(const TriMesh& a, const TriMesh& b,
   result.bbox_diagonal = glm::length(box.size());
   result.vertex_distance = by_vertex(forward);
   if (options.n_bins > 0) {
-    const double most = result.symmetric().max;
-    result.forward.histogram = count_bins(forward.face_distances, most, options.n_bins);
-    result.backward.histogram = count_bins(backward.face_distances, most, options.n_bins);
+    const double asked = options.histogram_most / (options.unit_cube ? unit_cube_factor(box) : 1);
+    add_histograms(forward, backward, asked > 0 ? asked : result.symmetric().max, options.n_bins,
+                   result);
   }
   if (options.unit_cube) change_to_unit_cube(result, box);
   return result;

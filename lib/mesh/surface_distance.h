@@ -17,6 +17,7 @@ struct DistanceOptions {
   std::size_t n_samples = 1'000'000;  ///< on the faces of each mesh; at least 1
   std::uint64_t seed = 0;             ///< shifts the samples on faces
   std::size_t n_bins = 0;             ///< of the histograms; 0: none
+  double histogram_most = 0;          ///< where the last bin ends; 0: the larger max
   /// Results in the units of the cube that A's box fits into: one factor for both meshes.
   bool unit_cube = false;
   int n_threads = 0;  ///< 0: all
@@ -40,7 +41,8 @@ struct OneSidedDistance {
   double mean_pooled = 0, rms_pooled = 0;
   WorstSample worst;
   std::size_t n_vertices = 0, n_edge_samples = 0, n_face_samples = 0;
-  /// Samples on faces with distances in equal parts of [0, the larger max of both directions].
+  /// Samples on faces with distances in equal parts of [0, SurfaceDistance::histogram_most]; those
+  /// beyond are in none.
   std::vector<std::uint64_t> histogram;
 
   std::size_t n_all_samples() const { return n_vertices + n_edge_samples + n_face_samples; }
@@ -51,6 +53,7 @@ struct SurfaceDistance {
   OneSidedDistance backward;            ///< from B to A
   double bbox_diagonal = 0;             ///< of A, over vertices that a triangle uses
   double units_per_model_unit = 1;      ///< not 1 for unit_cube
+  double histogram_most = 0;            ///< where the last bin of both histograms ends
   std::vector<double> vertex_distance;  ///< of each vertex of A; 0 where no triangle uses it
 
   /// The larger of both directions, for the mean and RMS too. Metro prints only the largest

@@ -51,6 +51,10 @@ expect 0 "$meshdist" a.off b.off --samples 5000 --json report.json -o table.txt
 expect 0 "$meshdist" low.off high.off --samples 1000 --histogram 4 --json report.json
 grep -q '"histogram": \[0,0,0,1000\]' report.json || fail "histogram: $(cat report.json)"
 grep -Eq '^1 +100.0000 +100.0000$' "$log/out" || fail "no lines of the histogram"
+expect 0 "$meshdist" low.off high.off --samples 1000 --histogram 4 --histogram-to 2 --json report.json
+grep -q '"histogram": \[0,0,1000,0\]' report.json || fail "--histogram-to: $(cat report.json)"
+grep -q '"histogram_to": 2.0' report.json || fail "histogram_to: $(cat report.json)"
+grep -Eq '^1.5 +100.0000 +100.0000$' "$log/out" || fail "lines of another range"
 
 # Units: those of A, or of the unit cube; any size.
 expect 0 "$meshdist" low.off high.off --samples 1000 --unit-cube
@@ -97,6 +101,10 @@ for range in 1 1:1 2:1 nan:1 0:inf :1 0: a:b 0:1:2 ""; do
 done
 for limit in nan -1 x; do fault 2 "--fail-above" "$meshdist" a.off b.off --fail-above=$limit; done
 for n in 0 -1 x 1e9; do fault 2 "--histogram" "$meshdist" a.off b.off --histogram=$n; done
+for x in 0 -1 nan x; do
+  fault 2 "--histogram-to" "$meshdist" a.off b.off --histogram 4 --histogram-to=$x
+done
+fault 2 "--histogram-to requires" "$meshdist" a.off b.off --histogram-to 1
 fault 2 "--seed" "$meshdist" a.off b.off --seed=-1
 fault 2 "--colour" "$meshdist" a.off b.off --colour x.ply
 fault 2 "--threads" "$meshdist" a.off b.off -j -1

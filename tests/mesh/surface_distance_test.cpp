@@ -318,6 +318,32 @@ TEST(SurfaceDistance, Histogram) {
   for (std::size_t k = 1; k < 5; ++k)
     EXPECT_NEAR(static_cast<double>(d.forward.histogram[k]), 10'000, 100);
   EXPECT_EQ(d.backward.histogram, (std::vector<std::uint64_t>{100'000, 0, 0, 0, 0}));
+  EXPECT_DOUBLE_EQ(d.histogram_most, d.forward.max);
+}
+
+// Distances of the unit square from its half x <= 1/2 run to 1/2; of four times the squares, in the
+// unit cube, as well.
+TEST(SurfaceDistance, HistogramOfAGivenRange) {
+  for (const double size : {1.0, 4.0}) {
+    const auto scaled = [&](double x) {
+      return moved(make_square(3, 0),
+                   [=](glm::dvec3 p) { return size * glm::dvec3(x * p.x, p.y, p.z); });
+    };
+    DistanceOptions options = samples(100'000);
+    options.unit_cube = true;
+    options.n_bins = 4;
+    options.histogram_most = 0.2;
+    const SurfaceDistance part = measure_surface_distance(scaled(1), scaled(0.5), options);
+    EXPECT_DOUBLE_EQ(part.histogram_most, 0.2);
+    ASSERT_EQ(part.forward.histogram.size(), 4u);
+    EXPECT_NEAR(static_cast<double>(part.forward.histogram[0]), 55'000, 100);
+    EXPECT_NEAR(static_cast<double>(part.forward.histogram[3]), 5'000, 100);
+    options.histogram_most = 1;
+    const SurfaceDistance more = measure_surface_distance(scaled(1), scaled(0.5), options);
+    EXPECT_NEAR(static_cast<double>(more.forward.histogram[1]), 25'000, 100);
+    EXPECT_EQ(more.forward.histogram[2] + more.forward.histogram[3], 0u);
+    EXPECT_EQ(more.forward.histogram[0] + more.forward.histogram[1], 100'000u);
+  }
 }
 
 // Metro's counts by hand for 1000 samples in all: 4 vertices; on edges, of length 4 + sqrt(2), one

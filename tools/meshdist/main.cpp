@@ -43,8 +43,13 @@ void declare(Tool& tool, Arguments& arguments) {
                  "write A as PLY with distances of vertices, as colours too: green near, blue far");
   app.add_option("--range", arguments.range,
                  "LO:HI, distances of green and blue (default: 0 to the 99th percentile)");
-  app.add_option("--histogram", options.n_bins, "count distances in this many equal parts of 0:max")
-      ->check(CLI::Range(1, 100'000));
+  CLI::Option* histogram = app.add_option("--histogram", options.n_bins,
+                                          "count distances in this many equal parts of 0:max")
+                               ->check(CLI::Range(1, 100'000));
+  app.add_option("--histogram-to", options.histogram_most,
+                 "end its last part here, not at max: the same parts for several meshes")
+      ->check(within(1e-30, 1e30))
+      ->needs(histogram);
   app.add_option("--fail-above", arguments.fail_above,
                  "exit with 5 when the symmetric maximum is above this")
       ->check(within(0, 1e300));
