@@ -56,7 +56,54 @@ TileSize find_tile_size(const std::vector<SheetRow>& rows, int tile_px) {
   return {tile_px, tile_px};
 }
 
+constexpr int kTrimMargin_px = 4;
+
+// In pixels, the upper ends excluded.
+struct PixelBox {
+  int x0 = 1 << 30, y0 = 1 << 30, x1 = 0, y1 = 0;
+  bool is_empty() const { return x0 >= x1; }
+};
+
+void add_covered(const ImageRgba8& picture, PixelBox& box) {
+  for (int y = 0; y < picture.height_px; ++y)
+    for (int x = 0; x < picture.width_px; ++x) {
+      if (picture.at(x, y)[3] == 0) continue;
+      box.x0 = std::min(box.x0, x), box.x1 = std::max(box.x1, x + 1);
+      box.y0 = std::min(box.y0, y), box.y1 = std::max(box.y1, y + 1);
+    }
+}
+
+ImageRgba8 cut(const ImageRgba8& picture, const PixelBox& box) {
+  ImageRgba8 out(box.x1 - box.x0, box.y1 - box.y0);
+  for (int y = 0; y < out.height_px; ++y)
+    for (int x = 0; x < out.width_px; ++x) out.at(x, y) = picture.at(box.x0 + x, box.y0 + y);
+  return out;
+}
+
 }  // namespace
+
+void trim_alike(std::vector<ImageRgba8>& pictures) {
+  PixelBox box;
+  const ImageRgba8* first = nullptr;
+  for (const ImageRgba8& picture : pictures) {
+    if (picture.empty()) continue;
+    if (first == nullptr) first = &picture;
+    VIEWCELL_CHECK(picture.width_px == first->width_px && picture.height_px == first->height_px,
+                   picture.width_px, picture.height_px);
+    add_covered(picture, box);
+  }
+  if (box.is_empty()) return;
+  box.x0 = std::max(box.x0 - kTrimMargin_px, 0), box.y0 = std::max(box.y0 - kTrimMargin_px, 0);
+  box.x1 = std::min(box.x1 + kTrimMargin_px, first->width_px);
+  box.y1 = std::min(box.y1 + kTrimMargin_px, first->height_px);
+  for (ImageRgba8& picture : pictures)
+    if (!picture.empty()) picture = cut(picture, box);
+}
+
+void lay_on_paper(ImageRgba8& picture) {
+  for (Rgba8& pixel : picture.pixels)
+    if (pixel[3] == 0) pixel = kPaper;
+}
 
 ImageRgba8 shrink_to_width(const ImageRgba8& image, int width_px) {
   VIEWCELL_CHECK(!image.empty() && width_px > 0, width_px);
@@ -75,8 +122,11 @@ ImageRgba8 make_contact_sheet(const std::vector<std::string>& columns,
                               const std::vector<SheetRow>& rows, const SheetOptions& options) {
   const TileSize tile = find_tile_size(rows, options.tile_px);
   const int n_columns = static_cast<int>(columns.size()), n_rows = static_cast<int>(rows.size());
+  const bool has_labels =
+      std::any_of(rows.begin(), rows.end(), [](const SheetRow& row) { return !row.label.empty(); });
+  const int label_height = has_labels ? kLine : 0;
   // A row: its label, the pictures, the notes.
-  const int row_height = kLine + tile.height_px + kLine + kGap;
+  const int row_height = label_height + tile.height_px + kLine + kGap;
   ImageRgba8 sheet(kGap + n_columns * (tile.width_px + kGap),
                    2 * kGap + kLine + n_rows * row_height, kPaper);
   const auto column_x = [&](std::size_t i) {
@@ -93,10 +143,10 @@ ImageRgba8 make_contact_sheet(const std::vector<std::string>& columns,
       const ImageRgba8 picture = shrink_to_width(row.pictures[i], options.tile_px);
       VIEWCELL_CHECK(picture.width_px == tile.width_px && picture.height_px == tile.height_px,
                      row.label, picture.width_px, picture.height_px);
-      paste(picture, column_x(i), y + kLine, sheet);
+      paste(picture, column_x(i), y + label_height, sheet);
     }
     for (std::size_t i = 0; i < std::min(row.notes.size(), columns.size()); ++i)
-      draw_label(sheet, column_x(i), y + kLine + tile.height_px + 2, row.notes[i], kInk,
+      draw_label(sheet, column_x(i), y + label_height + tile.height_px + 2, row.notes[i], kInk,
                  kTextScale);
     y += row_height;
   }

@@ -1,4 +1,4 @@
-// Chosen frames side by side: one row a frame, one column a mode, and the differences.
+// Pictures side by side: frames of several modes, views of a mesh.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@
 namespace viewcell {
 
 struct SheetRow {
-  std::string label;                 ///< "frame 120, 41.2 s, cell 77"
+  std::string label;                 ///< "frame 120, 41.2 s, cell 77"; no line when all are empty
   std::vector<ImageRgba8> pictures;  ///< one a column; all of the same size; empty: left blank
   std::vector<std::string> notes;    ///< under each picture, "37.3 dB"; may be fewer
 };
@@ -21,6 +21,14 @@ struct SheetOptions {
 /// Opaque. The same rows give the same bytes.
 ImageRgba8 make_contact_sheet(const std::vector<std::string>& columns,
                               const std::vector<SheetRow>& rows, const SheetOptions& options = {});
+
+/// Cuts all to the smallest rectangle that holds every pixel with alpha of any, a few pixels wider:
+/// they still show the same view. All must be of one size; empty ones, and pictures all without
+/// alpha, stay.
+void trim_alike(std::vector<ImageRgba8>& pictures);
+
+/// Pixels without alpha get the sheet's colour and are opaque.
+void lay_on_paper(ImageRgba8& picture);
 
 /// Averages encoded values over the area that each new pixel covers; never enlarges.
 ImageRgba8 shrink_to_width(const ImageRgba8& image, int width_px);

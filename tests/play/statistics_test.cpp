@@ -234,6 +234,44 @@ TEST(ContactSheet, PutsPicturesInTheirColumns) {
   EXPECT_EQ(n_blue, 400u);
 }
 
+// One pixel at (30, 20) in one picture, one at (50, 41) in the other: 21 x 22 and a margin around.
+TEST(ContactSheet, TrimsAllToOneRectangle) {
+  const Rgba8 nothing{9, 9, 9, 0}, red{200, 0, 0, 255};
+  std::vector<ImageRgba8> pictures{ImageRgba8(100, 60, nothing), {}, ImageRgba8(100, 60, nothing)};
+  trim_alike(pictures);
+  EXPECT_EQ(pictures[0].width_px, 100);  // nothing to keep
+  pictures[0].at(30, 20) = red;
+  pictures[2].at(50, 41) = red;
+  trim_alike(pictures);
+  EXPECT_TRUE(pictures[1].empty());
+  for (const std::size_t i : {0, 2}) {
+    ASSERT_EQ(pictures[i].width_px, 21 + 8);
+    ASSERT_EQ(pictures[i].height_px, 22 + 8);
+  }
+  EXPECT_EQ(pictures[0].at(4, 4), red);
+  EXPECT_EQ(pictures[2].at(24, 25), red);
+  pictures[0].at(0, 0) = red;
+  trim_alike(pictures);
+  EXPECT_EQ(pictures[0].at(0, 0), red);  // no margin beyond the picture
+  EXPECT_EQ(pictures[0].width_px, 29);
+}
+
+TEST(ContactSheet, PaperShowsWhereNothingIs) {
+  ImageRgba8 picture(2, 1, {9, 9, 9, 0});
+  picture.at(1, 0) = {9, 9, 9, 1};
+  lay_on_paper(picture);
+  EXPECT_EQ(picture.at(0, 0)[3], 255);
+  EXPECT_GT(picture.at(0, 0)[0], 200);
+  EXPECT_EQ(picture.at(1, 0), (Rgba8{9, 9, 9, 1}));
+}
+
+TEST(ContactSheet, RowsWithoutLabelsTakeNoLineForThem) {
+  std::vector<SheetRow> rows{{"", {ImageRgba8(20, 10)}, {}}, {"", {ImageRgba8(20, 10)}, {}}};
+  const int bare = make_contact_sheet({""}, rows, {20}).height_px;
+  rows[1].label = "second";
+  EXPECT_GT(make_contact_sheet({""}, rows, {20}).height_px, bare + 20);
+}
+
 TEST(ContactSheet, PicturesOfTwoSizesAreABug) {
   const std::vector<SheetRow> rows{{"row", {ImageRgba8(20, 10), ImageRgba8(20, 11)}, {}}};
   EXPECT_THROW(make_contact_sheet({"a", "b"}, rows), BugError);

@@ -1,0 +1,96 @@
+// contactsheet: pictures side by side on one.
+#include <algorithm>
+
+#include "base/error.h"
+#include "common/tool.h"
+#include "image/io.h"
+#include "play/contact_sheet.h"
+
+namespace viewcell {
+namespace {
+
+struct Arguments {
+  std::vector<std::string> pictures, notes;
+  std::string title;
+  std::size_t n_columns = 4;
+  bool trim = false;
+  SheetOptions sheet;
+};
+
+void declare(Tool& tool, Arguments& arguments) {
+  CLI::App& app = tool.app();
+  app.add_option("PICTURE", arguments.pictures,
+                 "pictures of one size, row by row; an empty word leaves its place blank")
+      ->required();
+  app.add_option("--note", arguments.notes,
+                 "words under a picture; once for each, in the same order; may be fewer")
+      ->expected(1)
+      ->take_all();
+  app.add_option("--title", arguments.title, "a line above all");
+  app.add_option("--columns", arguments.n_columns, "pictures in a row")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 64));
+  app.add_option("--tile", arguments.sheet.tile_px, "width to shrink larger pictures to, px")
+      ->capture_default_str()
+      ->check(CLI::Range(16, 4096));
+  app.add_flag("--trim", arguments.trim,
+               "cut the borders in which no picture shows anything (alpha 0), the same of all");
+  tool.add_output("PNG to write");
+}
+
+std::vector<ImageRgba8> read_pictures(const std::vector<std::string>& files) {
+  std::vector<ImageRgba8> pictures;
+  const ImageRgba8* first = nullptr;
+  pictures.reserve(files.size());
+  for (const std::string& file : files) {
+    pictures.push_back(file.empty() ? ImageRgba8() : read_image_rgba8(file));
+    const ImageRgba8& picture = pictures.back();
+    if (picture.empty()) continue;
+    if (first == nullptr) first = &picture;
+    if (picture.width_px != first->width_px || picture.height_px != first->height_px)
+      throw InputError(file, "",
+                       "is not of the size of the first picture, " +
+                           std::to_string(first->width_px) + " x " +
+                           std::to_string(first->height_px) + " pixels");
+  }
+  if (first == nullptr) throw UsageError("every place is blank");
+  return pictures;
+}
+
+int run(const Tool& tool, const Arguments& arguments) {
+  if (arguments.notes.size() > arguments.pictures.size())
+    throw UsageError("more --note than pictures");
+  if (tool.common().output == "-") throw UsageError("-o names a file");
+  std::vector<ImageRgba8> pictures = read_pictures(arguments.pictures);
+  if (arguments.trim) trim_alike(pictures);
+  const std::size_t n_columns = std::min(arguments.n_columns, pictures.size());
+  std::vector<std::string> columns(n_columns);
+  columns[0] = arguments.title;
+  std::vector<SheetRow> rows;
+  for (std::size_t i = 0; i < pictures.size(); ++i) {
+    if (i % n_columns == 0) rows.emplace_back();
+    lay_on_paper(pictures[i]);
+    rows.back().pictures.push_back(std::move(pictures[i]));
+    rows.back().notes.push_back(i < arguments.notes.size() ? arguments.notes[i] : "");
+  }
+  const ImageRgba8 sheet = make_contact_sheet(columns, rows, arguments.sheet);
+  write_png(tool.common().output, sheet, PngAlpha::drop);
+  tool.report({{"pictures", arguments.pictures.size()},
+               {"rows", rows.size()},
+               {"width_px", sheet.width_px},
+               {"height_px", sheet.height_px}});
+  return 0;
+}
+
+}  // namespace
+}  // namespace viewcell
+
+int main(int argc, char** argv) {
+  viewcell::Tool tool("contactsheet",
+                      "Lays pictures of one size side by side, with words under each.",
+                      "contactsheet a/view-00.png b/view-00.png --note original "
+                      "--note '500 faces' --trim -o sheet.png");
+  viewcell::Arguments arguments;
+  viewcell::declare(tool, arguments);
+  return tool.main(argc, argv, [&] { return viewcell::run(tool, arguments); });
+}
