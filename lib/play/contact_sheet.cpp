@@ -105,6 +105,16 @@ void lay_on_paper(ImageRgba8& picture) {
     if (pixel[3] == 0) pixel = kPaper;
 }
 
+void round_channels(ImageRgba8& image, int n_bits) {
+  VIEWCELL_CHECK(n_bits >= 1 && n_bits <= 8, n_bits);
+  const int most = (1 << n_bits) - 1;
+  for (Rgba8& pixel : image.pixels)
+    for (std::size_t c = 0; c < 3; ++c) {
+      const int level = (pixel[c] * most + 127) / 255;
+      pixel[c] = static_cast<std::uint8_t>((level * 255 + most / 2) / most);
+    }
+}
+
 ImageRgba8 shrink_to_width(const ImageRgba8& image, int width_px) {
   VIEWCELL_CHECK(!image.empty() && width_px > 0, width_px);
   if (image.width_px <= width_px) return image;

@@ -30,6 +30,10 @@ void trim_alike(std::vector<ImageRgba8>& pictures);
 /// Pixels without alpha get the sheet's colour and are opaque.
 void lay_on_paper(ImageRgba8& picture);
 
+/// Keeps so many bits of each channel but alpha, in [1, 8], white and black as they are: fewer make
+/// smaller files.
+void round_channels(ImageRgba8& image, int n_bits);
+
 /// Averages encoded values over the area that each new pixel covers; never enlarges.
 ImageRgba8 shrink_to_width(const ImageRgba8& image, int width_px);
 

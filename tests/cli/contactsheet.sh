@@ -39,10 +39,14 @@ cmp -s stdin.png file.png || fail "other bytes by a pipe"
 ball=ball/view-00.png
 expect 0 "$sheet" $ball $ball -o ball.png --json full.json
 expect 0 "$sheet" $ball $ball -o ball.png --tile 32 --json small.json
-expect 0 "$sheet" $ball $ball -o ball.png --trim --json trim.json
+expect 0 "$sheet" $ball $ball -o trim.png --trim --json trim.json
+expect 0 "$sheet" $ball $ball -o ball.png
 [ "$(size full.json | cut -d' ' -f1)" -eq $((8 + 2 * 72)) ] || fail "width $(size full.json)"
 [ "$(size small.json | cut -d' ' -f1)" -eq $((8 + 2 * 40)) ] || fail "width $(size small.json)"
 [ "$(size trim.json | cut -d' ' -f1)" -lt $((2 * 72)) ] || fail "nothing trimmed"
+
+expect 0 "$sheet" $ball $ball -o few.png --bits 4
+[ "$(stat -c %s few.png)" -lt "$(stat -c %s ball.png)" ] || fail "--bits makes no smaller file"
 
 # Misuse and bad input.
 fault 2 "PICTURE is required" "$sheet" -o x.png
@@ -51,10 +55,11 @@ fault 2 "-o names a file" "$sheet" a.png -o -
 fault 2 "more --note than pictures" "$sheet" a.png --note a --note b -o x.png
 fault 2 "every place is blank" "$sheet" "" "" -o x.png
 fault 2 "--columns" "$sheet" a.png --columns 0 -o x.png
+fault 2 "--bits" "$sheet" a.png --bits 9 -o x.png
 fault 2 "--tile" "$sheet" a.png --tile 15 -o x.png
 fault 1 "turned.png: is not of the size of the first picture, 20 x 15" "$sheet" a.png turned.png -o x.png
 fault 1 "missing.png" "$sheet" a.png missing.png -o x.png
 fault 1 "ball.off: is not a PNG" "$sheet" ball.off -o x.png
 fault 3 "no/x.png" "$sheet" a.png -o no/x.png
-[ "$n_faults" -eq 11 ] || fail "$n_faults faults typed"
+[ "$n_faults" -eq 12 ] || fail "$n_faults faults typed"
 echo "contactsheet.sh: all well"

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <set>
 
 #include "base/error.h"
 #include "base/random.h"
@@ -263,6 +264,22 @@ TEST(ContactSheet, PaperShowsWhereNothingIs) {
   EXPECT_EQ(picture.at(0, 0)[3], 255);
   EXPECT_GT(picture.at(0, 0)[0], 200);
   EXPECT_EQ(picture.at(1, 0), (Rgba8{9, 9, 9, 1}));
+}
+
+TEST(ContactSheet, RoundingKeepsSoManyLevels) {
+  for (int n_bits = 1; n_bits <= 8; ++n_bits) {
+    ImageRgba8 image(256, 1);
+    for (int x = 0; x < 256; ++x) image.at(x, 0).fill(static_cast<std::uint8_t>(x));
+    round_channels(image, n_bits);
+    std::set<int> levels;
+    for (int x = 0; x < 256; ++x) {
+      levels.insert(image.at(x, 0)[1]);
+      EXPECT_NEAR(image.at(x, 0)[1], x, 127.5 / ((1 << n_bits) - 1) + 1);
+      EXPECT_EQ(image.at(x, 0)[3], x);
+    }
+    EXPECT_EQ(levels.size(), std::size_t{1} << n_bits);
+    EXPECT_TRUE(levels.contains(0) && levels.contains(255));
+  }
 }
 
 TEST(ContactSheet, RowsWithoutLabelsTakeNoLineForThem) {

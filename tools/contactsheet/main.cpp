@@ -14,6 +14,7 @@ struct Arguments {
   std::string title;
   std::size_t n_columns = 4;
   bool trim = false;
+  int n_bits = 8;
   SheetOptions sheet;
 };
 
@@ -35,6 +36,10 @@ void declare(Tool& tool, Arguments& arguments) {
       ->check(CLI::Range(16, 4096));
   app.add_flag("--trim", arguments.trim,
                "cut the borders in which no picture shows anything (alpha 0), the same of all");
+  app.add_option("--bits", arguments.n_bits,
+                 "of a colour channel to keep: 5 nearly halves the file")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 8));
   tool.add_output("PNG to write");
 }
 
@@ -73,7 +78,8 @@ int run(const Tool& tool, const Arguments& arguments) {
     rows.back().pictures.push_back(std::move(pictures[i]));
     rows.back().notes.push_back(i < arguments.notes.size() ? arguments.notes[i] : "");
   }
-  const ImageRgba8 sheet = make_contact_sheet(columns, rows, arguments.sheet);
+  ImageRgba8 sheet = make_contact_sheet(columns, rows, arguments.sheet);
+  round_channels(sheet, arguments.n_bits);
   write_png(tool.common().output, sheet, PngAlpha::drop);
   tool.report({{"pictures", arguments.pictures.size()},
                {"rows", rows.size()},
