@@ -13,7 +13,7 @@ namespace viewcell {
 namespace {
 
 constexpr double kWidth = 960, kMargin = 16;
-constexpr double kFirstLeft = 72, kNextLeft = 52;  // of a panel's axes, from what is left of it
+constexpr double kFirstLeft = 72, kNextLeft = 52;  // at least, of axes, from what is left of them
 constexpr double kTitleHeight = 40, kLegendLine = 20, kPanelTitle = 22, kBelow = 52;
 constexpr double kMostDrawn = 1e100;  // sums and factors of such values are finite
 
@@ -97,8 +97,8 @@ std::string define_marks(const std::vector<LineStyle>& styles) {
 // --- a panel ---
 
 struct PanelBox {
-  double left, right, top, bottom;  // of the axes
-  bool is_first;
+  double left = 0, right = 0, top = 0, bottom = 0;  // of the axes
+  bool is_first = false;
 };
 
 bool is_drawable(double value, bool log) {
@@ -122,21 +122,26 @@ struct PanelAxes {
   PlotAxis x, y;
 };
 
-PanelAxes make_axes(const PlotPanel& panel, const PanelBox& box, PlotStyle style) {
-  ValueRange xs, ys;
+PlotAxis make_x_axis(const PlotPanel& panel, const PanelBox& box, PlotStyle style) {
+  ValueRange range;
   for (const PlotLine& line : panel.lines)
     for (std::size_t i = 0; i < line.x.size(); ++i) {
       if (!is_drawn(panel, line, i)) continue;
-      xs.add(line.x[i]);
-      ys.add(std::clamp(line.y[i], panel.y_least, panel.y_most));
-      if (style != PlotStyle::steps) continue;
+      range.add(line.x[i]);
       const double end = step_end(panel, line, i);
-      if (is_drawable(end, panel.log_x)) xs.add(end);
-      if (!panel.log_y) ys.add(0);
+      if (style == PlotStyle::steps && is_drawable(end, panel.log_x)) range.add(end);
     }
-  if (panel.log_y && !ys.is_empty() && !(ys.lo > 0)) ys.lo = ys.hi;  // y_most is not above 0
-  return {make_axis(xs, {panel.log_x, box.left, box.right, panel.log_x ? 36.0 : 60.0, false}),
-          make_axis(ys, {panel.log_y, box.bottom, box.top, panel.log_y ? 20.0 : 36.0, true})};
+  return make_axis(range, {panel.log_x, box.left, box.right, panel.log_x ? 36.0 : 60.0, false});
+}
+
+PlotAxis make_y_axis(const PlotPanel& panel, double top, double bottom, PlotStyle style) {
+  ValueRange range;
+  for (const PlotLine& line : panel.lines)
+    for (std::size_t i = 0; i < line.x.size(); ++i)
+      if (is_drawn(panel, line, i)) range.add(std::clamp(line.y[i], panel.y_least, panel.y_most));
+  if (panel.log_y && !(range.lo > 0)) range = {};  // y_most is not above 0
+  if (style == PlotStyle::steps && !panel.log_y) range.add(0);
+  return make_axis(range, {panel.log_y, bottom, top, panel.log_y ? 20.0 : 36.0, true});
 }
 
 std::string draw_axes(const PlotPanel& panel, const PanelBox& box, const PanelAxes& axes) {
@@ -201,12 +206,33 @@ std::string draw_line(const std::string& path, const LineStyle& style, PlotStyle
 }
 
 std::string draw_panel(const Plot& plot, const PlotPanel& panel, const PanelBox& box,
-                       const std::vector<LineStyle>& styles) {
-  const PanelAxes axes = make_axes(panel, box, plot.style);
+                       const PlotAxis& y, const std::vector<LineStyle>& styles) {
+  const PanelAxes axes{make_x_axis(panel, box, plot.style), y};
   std::string out = draw_axes(panel, box, axes) + draw_words(panel, box);
   for (const PlotLine& line : panel.lines)
     out += draw_line(trace_line(panel, line, axes, plot.style), style_of(line, styles), plot.style);
   return out;
+}
+
+double widest_label(const PlotAxis& axis) {
+  double widest = 0;
+  for (const std::string& label : axis.labels) widest = std::max(widest, svg_text_width(label));
+  return widest;
+}
+
+// Side by side, of one width, with room for the labels of the y axes.
+std::vector<PanelBox> place_panels(const std::vector<PlotAxis>& ys, double top, double bottom) {
+  double first = kFirstLeft, next = kNextLeft;
+  for (std::size_t k = 0; k < ys.size(); ++k) {
+    double& gap = k == 0 ? first : next;
+    gap = std::max(gap, widest_label(ys[k]) + (k == 0 ? 36 : 20));
+  }
+  const auto n = static_cast<double>(ys.size());
+  const double width = (kWidth - kMargin - first - (n - 1) * next) / n;
+  std::vector<PanelBox> boxes;
+  for (double left = first; boxes.size() < ys.size(); left += width + next)
+    boxes.push_back({left, left + width, top, bottom, boxes.empty()});
+  return boxes;
 }
 
 // --- what stands above the panels ---
@@ -266,18 +292,18 @@ std::string format_svg(const Plot& plot) {
   check(plot);
   const std::vector<LineStyle> styles = collect_styles(plot);
   const Legend legend = draw_legend(plot, styles, kFirstLeft);
-  const auto n = static_cast<double>(plot.panels.size());
   const bool has_titles = std::any_of(plot.panels.begin(), plot.panels.end(),
                                       [](const PlotPanel& panel) { return !panel.title.empty(); });
-  const double width = (kWidth - kMargin - kFirstLeft - (n - 1) * kNextLeft) / n;
   const double top = legend.bottom + (has_titles ? kPanelTitle : 0);
-  const double bottom = top + (n > 1 ? 270 : 310);
+  const double bottom = top + (plot.panels.size() > 1 ? 270 : 310);
+  std::vector<PlotAxis> ys;
+  for (const PlotPanel& panel : plot.panels)
+    ys.push_back(make_y_axis(panel, top, bottom, plot.style));
+  const std::vector<PanelBox> boxes = place_panels(ys, top, bottom);
   std::string content = plot.style == PlotStyle::points ? define_marks(styles) : "";
   content += draw_title(plot.title, kFirstLeft) + legend.svg;
-  for (std::size_t k = 0; k < plot.panels.size(); ++k) {
-    const double left = kFirstLeft + static_cast<double>(k) * (width + kNextLeft);
-    content += draw_panel(plot, plot.panels[k], {left, left + width, top, bottom, k == 0}, styles);
-  }
+  for (std::size_t k = 0; k < boxes.size(); ++k)
+    content += draw_panel(plot, plot.panels[k], boxes[k], ys[k], styles);
   return svg_document(kWidth, bottom + kBelow, plot.title, content);
 }
 

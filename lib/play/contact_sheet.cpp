@@ -46,6 +46,15 @@ struct TileSize {
   int width_px = 0, height_px = 0;
 };
 
+// Columns are so wide that no note runs into the next.
+int find_column_width(const std::vector<SheetRow>& rows, const TileSize& tile) {
+  int width = tile.width_px;
+  for (const SheetRow& row : rows)
+    for (const std::string& note : row.notes)
+      width = std::max(width, label_width(note, kTextScale));
+  return width;
+}
+
 TileSize find_tile_size(const std::vector<SheetRow>& rows, int tile_px) {
   for (const SheetRow& row : rows)
     for (const ImageRgba8& picture : row.pictures) {
@@ -131,17 +140,20 @@ ImageRgba8 shrink_to_width(const ImageRgba8& image, int width_px) {
 ImageRgba8 make_contact_sheet(const std::vector<std::string>& columns,
                               const std::vector<SheetRow>& rows, const SheetOptions& options) {
   const TileSize tile = find_tile_size(rows, options.tile_px);
-  const int n_columns = static_cast<int>(columns.size()), n_rows = static_cast<int>(rows.size());
+  const int column_width = find_column_width(rows, tile);
+  const int n_rows = static_cast<int>(rows.size());
   const bool has_labels =
       std::any_of(rows.begin(), rows.end(), [](const SheetRow& row) { return !row.label.empty(); });
   const int label_height = has_labels ? kLine : 0;
   // A row: its label, the pictures, the notes.
   const int row_height = label_height + tile.height_px + kLine + kGap;
-  ImageRgba8 sheet(kGap + n_columns * (tile.width_px + kGap),
-                   2 * kGap + kLine + n_rows * row_height, kPaper);
   const auto column_x = [&](std::size_t i) {
-    return kGap + static_cast<int>(i) * (tile.width_px + kGap);
+    return kGap + static_cast<int>(i) * (column_width + kGap);
   };
+  int width = column_x(columns.size());
+  for (std::size_t i = 0; i < columns.size(); ++i)
+    width = std::max(width, column_x(i) + label_width(columns[i], kTextScale) + kGap);
+  ImageRgba8 sheet(width, 2 * kGap + kLine + n_rows * row_height, kPaper);
   for (std::size_t i = 0; i < columns.size(); ++i)
     draw_label(sheet, column_x(i), kGap, columns[i], kInk, kTextScale);
   int y = 2 * kGap + kLine;

@@ -215,6 +215,20 @@ TEST(Plot, TheLegendDoesNotCoverLines) {
   EXPECT_GT(count(svg, "stroke-dasharray"), 20u);
 }
 
+// Long tick labels move the axes to the right.
+TEST(Plot, TickLabelsFindRoom) {
+  Plot plot = make_plot();
+  plot.panels[0].marks.clear();
+  plot.panels = {plot.panels[0], plot.panels[0]};
+  const auto gap = [&](double y0, double y1) {
+    for (PlotPanel& panel : plot.panels) panel.lines = {{"l", "", false, {0, 1}, {y0, y1}}};
+    const std::string svg = format_svg(plot);
+    return path_points(svg, 1)[0].x - path_points(svg, 0)[1].x;
+  };
+  EXPECT_NEAR(gap(1, 9), 52, 0.2);
+  EXPECT_GT(gap(1.00001e6, 1.00002e6), gap(1, 9) + 20);
+}
+
 TEST(PlotAxis, TicksAreRoundAndInside) {
   const PlotAxis axis = make_axis({0.13, 9.7}, {false, 0, 300, 60, true});
   EXPECT_EQ(axis.lo, 0);  // near enough

@@ -217,7 +217,7 @@ TEST(ContactSheet, ShrinkingKeepsTheMean) {
 TEST(ContactSheet, PutsPicturesInTheirColumns) {
   const Rgba8 red{200, 0, 0, 0}, blue{0, 0, 200, 255};
   const std::vector<SheetRow> rows{
-      {"first", {ImageRgba8(20, 10, red), ImageRgba8(20, 10, blue)}, {"1 dB"}},
+      {"first", {ImageRgba8(20, 10, red), ImageRgba8(20, 10, blue)}, {"1"}},
       {"second", {{}, ImageRgba8(20, 10, blue)}, {}}};
   const ImageRgba8 sheet = make_contact_sheet({"a", "b"}, rows, {20});
   EXPECT_EQ(sheet.width_px, 8 + 2 * 28);
@@ -280,6 +280,16 @@ TEST(ContactSheet, RoundingKeepsSoManyLevels) {
     EXPECT_EQ(levels.size(), std::size_t{1} << n_bits);
     EXPECT_TRUE(levels.contains(0) && levels.contains(255));
   }
+}
+
+TEST(ContactSheet, WordsFindRoom) {
+  const auto width = [](const std::string& title, const std::string& note) {
+    const std::vector<SheetRow> rows{{"", {ImageRgba8(30, 10), ImageRgba8(30, 10)}, {"", note}}};
+    return make_contact_sheet({title, ""}, rows, {30}).width_px;
+  };
+  EXPECT_EQ(width("", ""), 8 + 2 * 38);
+  EXPECT_EQ(width("", "a note"), 8 + 2 * (label_width("a note", 2) + 8));
+  EXPECT_EQ(width("a title above all", ""), 8 + label_width("a title above all", 2) + 8);
 }
 
 TEST(ContactSheet, RowsWithoutLabelsTakeNoLineForThem) {
