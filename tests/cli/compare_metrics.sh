@@ -1,0 +1,89 @@
+#!/usr/bin/env bash
+# Runs the scripts that compare metrics, on a small mesh without texture coordinates, and writes their
+# results into a document. First argument: the folder of binaries.
+set -euo pipefail
+. "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
+scripts=$(cd "$(dirname "${BASH_SOURCE[0]}")/../../scripts" && pwd)
+start "$1"
+export BIN=$bin SAMPLES=3000 CURVE_SAMPLES=1000 LEVELS=3
+
+ball 8 5 >ball.off  # 224 faces
+mkdir -p out/ball
+expect 0 env JOBS=2 TITLE="A ball" "$scripts/compare-metrics" ball.off 60 out/ball "exact=--metric qem3 --exact"
+# Every metric that needs no texture coordinates, and the one that was added.
+[ "$(sed -n '3,$p' out/ball/table.md | cut -d' ' -f2 | tr '\n' ' ')" = "qem3 qem3-full lt exact " ] ||
+  fail "$(cat out/ball/table.md)"
+grep -q '^mapping: needs texture coordinates$' "$log/err" || fail "nothing says why mapping is left out"
+cmp -s out/ball/table.md "$log/out" || fail "the table is not on stdout"
+# The curves: three levels each, fewer faces and a larger maximum from each to the next; the last is
+# the table's.
+awk -F, '
+  NR == 1 { if ($0 != "metric,faces,max,mean,rms") bad = 1; next }
+  { n[$1]++; if ($3 < $5 || $5 < $4 || $4 <= 0) bad = 1 }
+  n[$1] > 1 && ($2 >= faces || $3 < max / 2) { bad = 1 }
+  { faces = $2; max = $3 }
+  n[$1] == 3 && ($2 > 60 || $2 < 57) { bad = 1 }
+  END { for (m in n) { k++; if (n[m] != 3) bad = 1 } exit bad || k != 4 }' out/ball/curves.csv ||
+  fail "$(cat out/ball/curves.csv)"
+for name in qem3 lt; do
+  max=$(awk -F'|' -v m=" $name " '$2 == m { print $10 + 0 }' out/ball/table.md)
+  awk -F, -v m=$name -v max="$max" '$1 == m { last = $3 } END { exit !(max > 1 && (last - max) ^ 2 < 1e-6) }' out/ball/curves.csv ||
+    fail "the curve of $name does not end at the table's $max"
+done
+# The histograms: the same bins for all, nearly all of the surface.
+awk -F, '
+  NR > 1 { sum[$1] += $3; bins[$1] = bins[$1] " " $2 }
+  END { for (m in sum) { k++; if (sum[m] < 95 || sum[m] > 100.1 || bins[m] != bins["qem3"]) bad = 1 } exit bad || k != 4 }' \
+  out/ball/histogram.csv || fail "$(cat out/ball/histogram.csv)"
+grep -q '>A ball<' out/ball/curves.svg && grep -q '>A ball, 224 -&gt; 60 faces<' out/ball/histogram.svg || fail "titles"
+for file in sheet.png qem3.ply lt.color.ply; do [ -s "out/ball/$file" ] || fail "no $file"; done
+
+# The same bytes side by side or not, but for times.
+expect 0 env JOBS=1 TITLE="A ball" "$scripts/compare-metrics" ball.off 60 again "exact=--metric qem3 --exact"
+for file in curves.csv histogram.csv curves.svg histogram.svg sheet.png lt.color.ply; do
+  cmp "again/$file" "out/ball/$file" || fail "JOBS changes $file"
+done
+
+# What fails leaves no results that a document would take, not even old ones.
+expect 1 "$scripts/compare-metrics" ball.off 224 again
+grep -q "ball.off has 224 faces, not more than 224" "$log/err" || fail "$(cat "$log/err")"
+expect 1 "$scripts/compare-metrics" missing.off 60 again
+grep -q "missing.off" "$log/err" || fail "$(cat "$log/err")"
+[ ! -e again/table.md ] && [ ! -e again/sheet.png ] || fail "old results stay"
+[ -z "$(find . -name '.tmp-*')" ] || fail "temporaries are left"
+expect 2 "$scripts/compare-metrics" ball.off 60
+expect 2 "$scripts/compare-metrics" ball.off many again
+expect 2 "$scripts/measure-metrics" .
+expect 1 "$scripts/measure-metrics" . out
+grep -q "none of the models is in ." "$log/err" || fail "$(cat "$log/err")"
+
+# Times: a line a metric, the best of the runs.
+expect 0 env RUNS=1 "$scripts/time-metrics" ball.off 60
+awk 'NF != 2 || $2 <= 0 { bad = 1 } END { exit bad || NR != 3 }' "$log/out" || fail "$(cat "$log/out")"
+
+# Into a document: the parts that it names, once, and what else it says.
+cat >doc.md <<'MD'
+before
+<!-- ball: table curves sheet -->
+old
+<!-- end -->
+<!-- cube -->
+kept
+<!-- end -->
+MD
+expect 0 "$scripts/write-results" doc.md out
+expect 0 "$scripts/write-results" doc.md out
+{
+  printf 'before\n<!-- ball: table curves sheet -->\n'
+  cat out/ball/table.md
+  printf '\n![](pictures/out/ball-curves.svg)\n\n![](pictures/out/ball-sheet.png)\n\n<!-- end -->\n'
+  printf '<!-- cube -->\nkept\n<!-- end -->\n'
+} >wanted.md
+sed 's/!\[[^]]*\]/![]/' doc.md | cmp -s wanted.md || fail "$(cat doc.md)"
+cmp -s pictures/out/ball-curves.svg out/ball/curves.svg && cmp -s pictures/out/ball-sheet.png out/ball/sheet.png ||
+  fail "pictures"
+sed -i 's/curves sheet/picture/' doc.md
+cp doc.md as_it_was.md
+expect 1 "$scripts/write-results" doc.md out
+grep -q "'picture' is no part of ball" "$log/err" && cmp -s doc.md as_it_was.md || fail "a bad part"
+echo "compare_metrics.sh: all well"
