@@ -15,6 +15,7 @@ std::string color_of(const std::string& mode) {
   if (mode == "lod") return "#009e73";
   if (mode == "hybrid") return "#0072b2";
   if (mode == "raycast") return "#cc79a7";
+  if (mode == "lod-equal") return "#56b4e9";
   return "#000000";
 }
 
@@ -38,7 +39,9 @@ template <typename Value>
 void add_modes(const Timeline& timeline, bool with_reference, Value value, Plot& plot) {
   for (const ModeTimeline& mode : timeline.modes) {
     if (!with_reference && mode.mode == timeline.reference) continue;
-    PlotLine line{mode.mode, color_of(mode.mode), false, times_of(timeline), {}};
+    // Two-sided modes are dashed, in the colour of the one-sided.
+    const std::string base = mode.mode.substr(0, mode.mode.find("-two-sided"));
+    PlotLine line{mode.mode, color_of(base), base != mode.mode, times_of(timeline), {}};
     for (const FrameRecord& frame : mode.frames)
       line.y.push_back(static_cast<double>(value(frame)));
     plot.panels[0].lines.push_back(std::move(line));
