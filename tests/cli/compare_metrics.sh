@@ -36,6 +36,12 @@ awk -F, '
   END { for (m in sum) { k++; if (sum[m] < 95 || sum[m] > 100.1 || bins[m] != bins["qem3"]) bad = 1 } exit bad || k != 4 }' \
   out/ball/histogram.csv || fail "$(cat out/ball/histogram.csv)"
 grep -q '>A ball<' out/ball/curves.svg && grep -q '>A ball, 224 -&gt; 60 faces<' out/ball/histogram.svg || fail "titles"
+# Their mean is that of the table, from A to B, but for what lies beyond the last bin.
+mean=$(awk -F'|' '$2 == " lt " { print $5 + 0 }' out/ball/table.md)
+awk -F, -v mean="$mean" '
+  $1 == "lt" { if (n++ == 1) width = $2 - x; x = $2; sum += $3 * x / 100 }
+  END { exit !(n == 40 && (sum + width / 2 - mean) ^ 2 < (0.03 * mean) ^ 2) }' out/ball/histogram.csv ||
+  fail "the histogram of lt does not have the mean $mean"
 for file in sheet.png qem3.ply lt.color.ply; do [ -s "out/ball/$file" ] || fail "no $file"; done
 
 # The same bytes side by side or not, but for times.
