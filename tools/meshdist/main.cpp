@@ -65,11 +65,6 @@ std::array<double, 2> parse_range(const std::string& text) {
   return {lo, hi};
 }
 
-std::string format_speed(double n_samples, double seconds) {
-  return format_fixed(1e-6 * n_samples, 2, "") + " million samples in " +
-         format_fixed(seconds, 2, "") + " s";
-}
-
 void write_color(const Tool& tool, const Arguments& arguments, const TriMesh& a,
                  const SurfaceDistance& distance, const std::array<double, 2>& range) {
   const DistanceOptions& options = arguments.options;
@@ -102,7 +97,8 @@ int run(const Tool& tool, const Arguments& arguments) {
     write_file(table_file, format_surface_distance(distance));
   tool.report(report_surface_distance(distance, options));
   const std::size_t n = distance.forward.n_all_samples() + distance.backward.n_all_samples();
-  tool.say(format_speed(static_cast<double>(n), took_s));
+  tool.say(format_fixed(1e-6 * static_cast<double>(n), 2, "") + " million samples in " +
+           format_fixed(took_s, 2, "") + " s");
   return distance.symmetric().max > arguments.fail_above ? kOverThreshold : 0;
 }
 
