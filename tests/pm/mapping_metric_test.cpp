@@ -9,60 +9,10 @@
 #include "mesh/closest_point.h"
 #include "mesh/surface_distance.h"
 #include "pm/build.h"
-#include "pm/shapes.h"
-#include "pm/texture_fold.h"
+#include "pm/parts.h"
 
 namespace viewcell {
 namespace {
-
-// A fan of n triangles around vertex 0; rim vertices 1 ... n. Positions and texture coordinates are
-// near a regular n-gon, off by up to `noise`; heights are random.
-TriMesh make_fan(std::uint32_t n, double noise, double height, Random& random) {
-  TriMesh mesh;
-  std::vector<glm::vec2> uv;
-  const auto add = [&](double x, double y) {
-    const auto off = [&] { return random.uniform(-noise, noise); };
-    mesh.positions.emplace_back(x + off(), y + off(), random.uniform(-height, height));
-    uv.emplace_back(x + off(), y + off());
-  };
-  add(0, 0);
-  for (std::uint32_t i = 0; i < n; ++i) {
-    const double angle = 6.283185307179586 * i / n;
-    add(std::cos(angle), std::sin(angle));
-  }
-  for (std::uint32_t i = 0; i < n; ++i) {
-    mesh.triangles.push_back({0, 1 + i, 1 + (i + 1) % n});
-    for (const std::uint32_t v : mesh.triangles.back()) mesh.texcoords.push_back(uv[v]);
-  }
-  return mesh;
-}
-
-// The parts that a metric needs.
-struct Parts {
-  WedgeMesh wedges;
-  std::vector<Triangle> triangles;
-  CollapseMesh mesh;
-  WedgeTable table;
-  explicit Parts(const TriMesh& input)
-      : wedges(make_wedges(input)),
-        triangles(wedges.vertex_triangles()),
-        mesh(wedges.positions, triangles),
-        table(wedges) {}
-  bool turns_over(std::uint32_t u, std::uint32_t v) {
-    if (!table.match(mesh, u, v, false)) return false;
-    std::vector<glm::vec2> merged;
-    for (const auto& pair : table.pairs()) merged.push_back(wedges.texcoords[pair.to]);
-    return turns_over_texture(mesh, table, wedges.texcoords, u, v, merged, false);
-  }
-  MappingMetric metric(Matching matching, bool total) {
-    return {mesh,
-            table,
-            wedges.positions,
-            wedges.texcoords,
-            triangles,
-            {.matching = matching, .total = total}};
-  }
-};
 
 struct Surface {
   const TriMesh& mesh;
@@ -217,155 +167,6 @@ TEST(MappingMetric, FlatCostsNothing) {
   }
 }
 
-// A sphere of 128 triangles with random radii; texture coordinates by latitude and longitude of
-// each hemisphere, off by some noise.
-TriMesh make_small_sphere(std::uint64_t seed) {
-  Random random(seed);
-  TriMesh mesh = make_noisy_sphere(2, 0.3, seed);
-  std::vector<glm::vec2> uv;
-  for (const glm::vec3& p : mesh.positions) {
-    const glm::vec3 n = glm::normalize(p);
-    uv.emplace_back(n.x + random.uniform(-0.02, 0.02), n.y + random.uniform(-0.02, 0.02));
-  }
-  for (const Triangle& t : mesh.triangles) {
-    float z = 0;
-    for (const std::uint32_t v : t) z += mesh.positions[v].z;
-    for (const std::uint32_t v : t) mesh.texcoords.push_back(uv[v] + glm::vec2(z > 0 ? 3 : 0, 0));
-  }
-  return mesh;
-}
-
-double measure_max(const TriMesh& a, const TriMesh& b) {
-  DistanceOptions options;
-  options.n_samples = 2000;
-  options.n_threads = 1;
-  return measure_surface_distance(a, b, options).symmetric().max;
-}
-
-TEST(MappingMetric, TotalErrorsHold) {
-  double tightest = 0;
-  for (std::uint64_t seed = 1; seed <= 200; ++seed) {
-    SCOPED_TRACE(seed);
-    const TriMesh sphere = make_small_sphere(seed);
-    BuildOptions options;
-    options.metric = seed % 2 ? MetricKind::mapping : MetricKind::aps;
-    if (seed % 3 == 0) {  // the bound beside another metric
-      options.metric = MetricKind::qem3;
-      options.error_bound = 1e30f;
-    }
-    ProgressiveMesh pm(build_progressive_mesh(sphere, options).record);
-    for (const std::size_t n : {100u, 50u, 20u}) {
-      pm.set_faces(n);
-      if (pm.n_faces() < 8) continue;
-      const double measured = measure_max(sphere, pm.extract());
-      ASSERT_GE(pm.error(), 0);
-      ASSERT_LE(measured, pm.error() * (1 + 1e-6)) << n;
-      tightest = std::max(tightest, measured / pm.error());
-    }
-  }
-  EXPECT_GT(tightest, 0.8);
-}
-
-// An open mesh in relief, with texture coordinates that are a little off.
-TriMesh make_relief(std::uint64_t seed) {
-  Random random(seed);
-  TriMesh grid = make_flat_grid(7);
-  std::vector<glm::vec2> uv;
-  for (glm::vec3& p : grid.positions) {
-    uv.emplace_back(p.x + random.uniform(-0.1, 0.1), p.y + random.uniform(-0.1, 0.1));
-    p.z = static_cast<float>(random.uniform(0, 0.7));
-  }
-  for (const Triangle& t : grid.triangles)
-    for (const std::uint32_t v : t) grid.texcoords.push_back(uv[v]);
-  return grid;
-}
-
-TEST(MappingMetric, TotalErrorsHoldAtBoundaries) {
-  double tightest = 0;
-  for (std::uint64_t seed = 1; seed <= 100; ++seed) {
-    SCOPED_TRACE(seed);
-    const TriMesh relief = make_relief(seed);
-    BuildOptions options;
-    options.metric = seed % 2 ? MetricKind::mapping : MetricKind::aps;
-    options.min_cosine = -1;  // whatever folds
-    ProgressiveMesh pm(build_progressive_mesh(relief, options).record);
-    for (const std::size_t n : {60u, 30u, 10u, 3u}) {
-      pm.set_faces(n);
-      const double measured = measure_max(relief, pm.extract());
-      ASSERT_LE(measured, pm.error() * (1 + 1e-6)) << n;
-      tightest = std::max(tightest, measured / pm.error());
-    }
-  }
-  EXPECT_GT(tightest, 0.8);
-}
-
-// Full-edge collapses: the bound beside lt and qem3, and the metric made of it. It is sums of two
-// boxes, so it is farther from the measured distance than half-edge collapses' are.
-TEST(MappingMetric, TotalErrorsHoldForFullEdges) {
-  double tightest = 0;
-  for (std::uint64_t seed = 1; seed <= 120; ++seed) {
-    SCOPED_TRACE(seed);
-    TriMesh mesh = seed % 2 ? make_small_sphere(seed) : make_relief(seed);
-    if (seed % 5 == 0) mesh.texcoords.clear();  // no chart borders
-    BuildOptions options;
-    options.placement = Placement::full;
-    options.min_cosine = seed % 4 ? 0.2f : -1;
-    options.metric = seed % 3 == 0   ? MetricKind::mapping
-                     : seed % 3 == 1 ? MetricKind::lt
-                                     : MetricKind::qem3;
-    if (options.metric != MetricKind::mapping) options.error_bound = 1e30f;
-    ProgressiveMesh pm(build_progressive_mesh(mesh, options).record);
-    for (const std::size_t n : {70u, 40u, 12u, 4u}) {
-      pm.set_faces(n);
-      if (pm.n_faces() < 2) continue;
-      const double measured = measure_max(mesh, pm.extract());
-      ASSERT_LE(measured, pm.error() * (1 + 1e-6)) << n;
-      tightest = std::max(tightest, measured / pm.error());
-    }
-  }
-  EXPECT_GT(tightest, 0.7);
-}
-
-// Where both vertices go makes no difference on a plane; nor which of them is called u.
-TEST(MappingMetric, FlatFullEdgesCostNothing) {
-  for (const bool is_bound : {false, true}) {
-    BuildOptions options;
-    options.placement = Placement::full;
-    options.metric = is_bound ? MetricKind::lt : MetricKind::mapping;
-    options.max_cost = is_bound ? std::numeric_limits<float>::infinity() : 1e-3f;
-    if (is_bound) options.error_bound = 1e-3f;
-    const BuildResult built = build_progressive_mesh(make_flat_grid(8), options);
-    EXPECT_LE(built.record.faces.size() - built.record.born.size(), 4u);
-  }
-}
-
-// The cells of a moved vertex take up the whole star before, whichever way it moves.
-TEST(CollapseMap, MovedCellsCoverTheStar) {
-  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
-    SCOPED_TRACE(seed);
-    Random random(seed);
-    TriMesh fan = make_fan(3 + random.below(6), 0.1, 0, random);
-    const bool is_open = seed % 3 == 0;
-    if (is_open) fan.triangles.pop_back(), fan.texcoords.resize(3 * fan.triangles.size());
-    Parts parts(fan);
-    CollapseMap map(parts.mesh, parts.table, parts.wedges.positions, {}, Matching::nearest, true);
-    const double angle = random.uniform(0, 6.28), radius = random.uniform(0, 0.35);
-    const glm::dvec3 to =
-        glm::dvec3(fan.positions[0]) + radius * glm::dvec3(std::cos(angle), std::sin(angle), 0);
-    ASSERT_TRUE(map.lay_move(0, to));
-    std::vector<double> covered(fan.triangles.size(), 0);
-    for (std::size_t i = 0; i < map.overlay().cells().size(); ++i)
-      covered[map.faces()[map.overlay().cells()[i].old_face]] += map.overlay().moments()[i].area;
-    for (std::size_t f = 0; f < fan.triangles.size(); ++f) {
-      const double area = glm::length(area_normal(fan, fan.triangles[f])) / 2;
-      EXPECT_GE(covered[f], area - 1e-5) << f;
-      EXPECT_LE(covered[f], is_open ? 1e30 : area + 1e-5) << f;
-    }
-    if (is_open) continue;
-    EXPECT_NEAR(map.overlay().largest_shift(), 0, 1e-7);
-  }
-}
-
 TEST(MappingMetric, NoFaceTurnsOverInTheTexture) {
   for (std::uint64_t seed = 1; seed <= 10; ++seed)
     for (const auto& [kind, placement] : {std::pair{MetricKind::aps, Placement::half},
@@ -395,26 +196,6 @@ TEST(MappingMetric, NoFaceTurnsOverInTheTexture) {
     }
 }
 
-// The parts of an old face that the cells take make up the face.
-TEST(CollapseMap, CellsCoverTheStar) {
-  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
-    SCOPED_TRACE(seed);
-    Random random(seed);
-    const TriMesh fan = make_fan(4 + random.below(6), 0.1, 0, random);
-    const std::uint32_t v = 1 + random.below(static_cast<std::uint32_t>(fan.positions.size() - 1));
-    Parts parts(fan);
-    CollapseMap map(parts.mesh, parts.table, parts.wedges.positions, parts.wedges.texcoords,
-                    Matching::texture, true);
-    ASSERT_TRUE(map.lay(0, v));
-    if (parts.turns_over(0, v)) continue;
-    std::vector<double> covered(fan.triangles.size(), 0);
-    for (std::size_t i = 0; i < map.overlay().cells().size(); ++i)
-      covered[map.faces()[map.overlay().cells()[i].old_face]] += map.overlay().moments()[i].area;
-    for (std::size_t f = 0; f < fan.triangles.size(); ++f)
-      EXPECT_NEAR(covered[f], glm::length(area_normal(fan, fan.triangles[f])) / 2, 1e-5) << f;
-  }
-}
-
 // Costs of the mean add up to the mean square distance of matched points, which is about that of
 // nearest points, and no less than it.
 TEST(MappingMetric, MeansAddUp) {
@@ -441,18 +222,6 @@ TEST(MappingMetric, MeansAddUp) {
       EXPECT_LT(std::sqrt(square), 1.35 * rms) << n;
     }
   }
-}
-
-TEST(MappingMetric, ABoundIsKept) {
-  const TriMesh sphere = make_noisy_sphere(4, 0.02, 3);
-  BuildOptions options;
-  options.error_bound = 0.05f;
-  const BuildResult built = build_progressive_mesh(sphere, options);
-  EXPECT_GT(built.counts.n_refused[static_cast<std::size_t>(Refusal::bound)], 0u);
-  ProgressiveMesh pm(built.record);
-  EXPECT_LE(pm.error(), 0.05f);
-  EXPECT_LT(pm.n_faces(), sphere.triangles.size() / 4);
-  EXPECT_LE(measure_max(sphere, pm.extract()), 0.05);
 }
 
 TEST(MappingMetric, NeedsTextureCoordinates) {

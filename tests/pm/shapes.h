@@ -154,4 +154,18 @@ inline std::vector<Triangle> normalised(std::vector<Triangle> triangles) {
   return triangles;
 }
 
+/// An open mesh in relief, with texture coordinates that are a little off.
+inline TriMesh make_relief(std::uint64_t seed) {
+  Random random(seed);
+  TriMesh grid = make_flat_grid(7);
+  std::vector<glm::vec2> uv;
+  for (glm::vec3& p : grid.positions) {
+    uv.emplace_back(p.x + random.uniform(-0.1, 0.1), p.y + random.uniform(-0.1, 0.1));
+    p.z = static_cast<float>(random.uniform(0, 0.7));
+  }
+  for (const Triangle& t : grid.triangles)
+    for (const std::uint32_t v : t) grid.texcoords.push_back(uv[v]);
+  return grid;
+}
+
 }  // namespace viewcell

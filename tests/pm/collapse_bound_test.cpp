@@ -1,0 +1,134 @@
+// Whether errors that are said to bound a distance do.
+#include "pm/collapse_bound.h"
+
+#include <gtest/gtest.h>
+
+#include "mesh/surface_distance.h"
+#include "pm/build.h"
+#include "pm/shapes.h"
+
+namespace viewcell {
+namespace {
+
+// A sphere of 128 triangles with random radii; texture coordinates by latitude and longitude of
+// each hemisphere, off by some noise.
+TriMesh make_small_sphere(std::uint64_t seed) {
+  Random random(seed);
+  TriMesh mesh = make_noisy_sphere(2, 0.3, seed);
+  std::vector<glm::vec2> uv;
+  for (const glm::vec3& p : mesh.positions) {
+    const glm::vec3 n = glm::normalize(p);
+    uv.emplace_back(n.x + random.uniform(-0.02, 0.02), n.y + random.uniform(-0.02, 0.02));
+  }
+  for (const Triangle& t : mesh.triangles) {
+    float z = 0;
+    for (const std::uint32_t v : t) z += mesh.positions[v].z;
+    for (const std::uint32_t v : t) mesh.texcoords.push_back(uv[v] + glm::vec2(z > 0 ? 3 : 0, 0));
+  }
+  return mesh;
+}
+
+double measure_max(const TriMesh& a, const TriMesh& b) {
+  DistanceOptions options;
+  options.n_samples = 2000;
+  options.n_threads = 1;
+  return measure_surface_distance(a, b, options).symmetric().max;
+}
+
+TEST(CollapseBound, TotalErrorsHold) {
+  double tightest = 0;
+  for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+    SCOPED_TRACE(seed);
+    const TriMesh sphere = make_small_sphere(seed);
+    BuildOptions options;
+    options.metric = seed % 2 ? MetricKind::mapping : MetricKind::aps;
+    if (seed % 3 == 0) {  // the bound beside another metric
+      options.metric = MetricKind::qem3;
+      options.error_bound = 1e30f;
+    }
+    ProgressiveMesh pm(build_progressive_mesh(sphere, options).record);
+    for (const std::size_t n : {100u, 50u, 20u}) {
+      pm.set_faces(n);
+      if (pm.n_faces() < 8) continue;
+      const double measured = measure_max(sphere, pm.extract());
+      ASSERT_GE(pm.error(), 0);
+      ASSERT_LE(measured, pm.error() * (1 + 1e-6)) << n;
+      tightest = std::max(tightest, measured / pm.error());
+    }
+  }
+  EXPECT_GT(tightest, 0.8);
+}
+
+TEST(CollapseBound, TotalErrorsHoldAtBoundaries) {
+  double tightest = 0;
+  for (std::uint64_t seed = 1; seed <= 100; ++seed) {
+    SCOPED_TRACE(seed);
+    const TriMesh relief = make_relief(seed);
+    BuildOptions options;
+    options.metric = seed % 2 ? MetricKind::mapping : MetricKind::aps;
+    options.min_cosine = -1;  // whatever folds
+    ProgressiveMesh pm(build_progressive_mesh(relief, options).record);
+    for (const std::size_t n : {60u, 30u, 10u, 3u}) {
+      pm.set_faces(n);
+      const double measured = measure_max(relief, pm.extract());
+      ASSERT_LE(measured, pm.error() * (1 + 1e-6)) << n;
+      tightest = std::max(tightest, measured / pm.error());
+    }
+  }
+  EXPECT_GT(tightest, 0.8);
+}
+
+// Full-edge collapses: the bound beside lt and qem3, and the metric made of it. It is sums of two
+// boxes, so it is farther from the measured distance than half-edge collapses' are.
+TEST(CollapseBound, TotalErrorsHoldForFullEdges) {
+  double tightest = 0;
+  for (std::uint64_t seed = 1; seed <= 120; ++seed) {
+    SCOPED_TRACE(seed);
+    TriMesh mesh = seed % 2 ? make_small_sphere(seed) : make_relief(seed);
+    if (seed % 5 == 0) mesh.texcoords.clear();  // no chart borders
+    BuildOptions options;
+    options.placement = Placement::full;
+    options.min_cosine = seed % 4 ? 0.2f : -1;
+    options.metric = seed % 3 == 0   ? MetricKind::mapping
+                     : seed % 3 == 1 ? MetricKind::lt
+                                     : MetricKind::qem3;
+    if (options.metric != MetricKind::mapping) options.error_bound = 1e30f;
+    ProgressiveMesh pm(build_progressive_mesh(mesh, options).record);
+    for (const std::size_t n : {70u, 40u, 12u, 4u}) {
+      pm.set_faces(n);
+      if (pm.n_faces() < 2) continue;
+      const double measured = measure_max(mesh, pm.extract());
+      ASSERT_LE(measured, pm.error() * (1 + 1e-6)) << n;
+      tightest = std::max(tightest, measured / pm.error());
+    }
+  }
+  EXPECT_GT(tightest, 0.7);
+}
+
+// Where both vertices go makes no difference on a plane; nor which of them is called u.
+TEST(CollapseBound, FlatFullEdgesCostNothing) {
+  for (const bool is_bound : {false, true}) {
+    BuildOptions options;
+    options.placement = Placement::full;
+    options.metric = is_bound ? MetricKind::lt : MetricKind::mapping;
+    options.max_cost = is_bound ? std::numeric_limits<float>::infinity() : 1e-3f;
+    if (is_bound) options.error_bound = 1e-3f;
+    const BuildResult built = build_progressive_mesh(make_flat_grid(8), options);
+    EXPECT_LE(built.record.faces.size() - built.record.born.size(), 4u);
+  }
+}
+
+TEST(CollapseBound, ABoundIsKept) {
+  const TriMesh sphere = make_noisy_sphere(4, 0.02, 3);
+  BuildOptions options;
+  options.error_bound = 0.05f;
+  const BuildResult built = build_progressive_mesh(sphere, options);
+  EXPECT_GT(built.counts.n_refused[static_cast<std::size_t>(Refusal::bound)], 0u);
+  ProgressiveMesh pm(built.record);
+  EXPECT_LE(pm.error(), 0.05f);
+  EXPECT_LT(pm.n_faces(), sphere.triangles.size() / 4);
+  EXPECT_LE(measure_max(sphere, pm.extract()), 0.05);
+}
+
+}  // namespace
+}  // namespace viewcell
