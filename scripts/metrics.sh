@@ -9,8 +9,8 @@ metrics=(
   "mapping=--metric mapping"
   "mapping-mean=--metric mapping --measure mean"
   "qem3-full=--metric qem3 --placement full"
-  "qem5-full=--metric qem5 --placement full"
   "mapping-full=--metric mapping --placement full"
+  "mapping-mean-full=--metric mapping --measure mean --placement full"
   "lt=--metric lt"
 )
 

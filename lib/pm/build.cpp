@@ -83,13 +83,18 @@ CollapseCounts run_metric(CollapseMesh& mesh, WedgeMesh& wedges,
   std::vector<glm::vec3>& positions = wedges.positions;
   std::optional<CollapseBound> guard;
   if (options.track_error || std::isfinite(options.error_bound))
-    guard.emplace(mesh, recorder.table(), positions, triangles.size());
+    guard.emplace(mesh, recorder.table(), positions, DeviationBoxes(triangles.size()));
   const auto run = [&](auto&& metric) {
     return collapse_all(mesh, metric, recorder, guard ? &*guard : nullptr, scale, options,
                         progress);
   };
-  if (options.metric == MetricKind::mapping && options.placement == Placement::full)
-    return run(MappingFullMetric(mesh, recorder.table(), positions, triangles.size(), options.lt));
+  if (options.metric == MetricKind::mapping && options.placement == Placement::full) {
+    if (options.measure == Measure::mean)
+      return run(MappingFullMetric(mesh, recorder.table(), positions,
+                                   DeviationMoments(positions, triangles), options.lt));
+    return run(MappingFullMetric(mesh, recorder.table(), positions,
+                                 DeviationBoxes(triangles.size()), options.lt));
+  }
   if (options.metric == MetricKind::aps || options.metric == MetricKind::mapping)
     return run(MappingMetric(
         mesh, recorder.table(), positions, recorder.texcoords(), triangles,
@@ -113,8 +118,8 @@ void check_options(const TriMesh& mesh, const BuildOptions& options) {
   if (options.metric == MetricKind::lt && options.placement == Placement::half)
     throw UsageError("metric lt places vertices anew: it needs --placement full");
   if (options.metric == MetricKind::mapping && options.placement == Placement::full) {
-    if (!options.total_error || options.measure != Measure::max)
-      throw UsageError("metric mapping with --placement full is --error total --measure max only");
+    if (!options.total_error)
+      throw UsageError("metric mapping with --placement full is --error total only");
     return;
   }
   if (!needs_texture(options.metric)) return;

@@ -31,7 +31,7 @@ void DeviationBoxes::add(const CollapseMap& map, Change& change) {
     if (local_[i].is_new) change.push_back({faces[i], local_[i].after});
 }
 
-float DeviationBoxes::reach(const Change& change) {
+float DeviationBoxes::cost(const Change& change) const {
   float reach2 = 0;
   for (const Next& next : change) reach2 = std::max(reach2, next.box.reach2());
   return std::sqrt(reach2);
@@ -48,7 +48,7 @@ float DeviationBoxes::least_reach(const CollapseMap& map) const {
 
 void DeviationBoxes::take(const Change& change) {
   for (const Next& next : change) boxes_[next.face] = next.box;
-  bound_ = std::max(bound_, reach(change));
+  bound_ = std::max(bound_, cost(change));
 }
 
 }  // namespace viewcell

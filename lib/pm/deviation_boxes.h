@@ -14,6 +14,8 @@ namespace viewcell {
 /// Follows: [Cohen, Olano, Manocha 1998 4.3], [Chen06 4.2.1].
 class DeviationBoxes {
  public:
+  static constexpr bool kMoments = false;  ///< whether maps must have them
+
   explicit DeviationBoxes(std::size_t n_faces) : boxes_(n_faces) {}
 
   struct Next {
@@ -25,7 +27,7 @@ class DeviationBoxes {
   /// Adds what a map does to a change; a second map starts where the first ended.
   void add(const CollapseMap& map, Change& change);
   /// The farthest reach of the faces of a change.
-  static float reach(const Change& change);
+  float cost(const Change& change) const;
   /// Of u's own deviation after the map's last place(); that of the whole map is not below it.
   float least_reach(const CollapseMap& map) const;
   void take(const Change& change);

@@ -3,9 +3,10 @@
 #pragma once
 
 #include <limits>
-#include <vector>
+#include <span>
+#include <utility>
 
-#include "pm/collapse_bound.h"
+#include "pm/collapse_look.h"
 #include "pm/lindstrom_turk.h"
 
 namespace viewcell {
@@ -49,56 +50,48 @@ class MappingMetric {
   float bound() const { return is_bound() ? boxes_.bound() : -1; }
 
  private:
-  // Deviations of the points of the input that a face stands for, over their area.
-  struct Moments {
-    double area = 0, square = 0;  // square: integral of the squared length
-    glm::dvec3 sum{0};            // integral
-  };
-  // Of a face of the last map, by its place in CollapseMap::faces().
-  struct Next {
-    bool is_old = false, is_new = false;
-    Moments moments;
-    double old_area = 0;  // of the cells of the old face
-  };
   bool is_bound() const { return options_.total && options_.measure == Measure::max; }
   float add_up();
-  float add_up_moments();
 
   MappingOptions options_;
   CollapseMap map_;
   DeviationBoxes boxes_;  // with Measure::max
-  DeviationBoxes::Change change_;
-  std::vector<Moments> moments_;  // by face, with Measure::mean
-  std::vector<Next> next_;
-  double area_ = 1;  // of the whole surface
+  DeviationBoxes::Change boxes_change_;
+  DeviationMoments moments_;  // with Measure::mean
+  DeviationMoments::Change moments_change_;
 };
 
-/// Full-edge collapses in the order of how far they would take the mesh from the input at most
-/// (total, Matching::nearest), each into the place that LindstromTurkMetric finds. Needs no texture
-/// coordinates.
+/// Full-edge collapses in the order of what they would do to the distance from the input (total,
+/// Matching::nearest), each into the place that LindstromTurkMetric finds. Needs no texture
+/// coordinates. Deviations: DeviationBoxes for Measure::max, DeviationMoments for Measure::mean.
+template <typename Deviations>
 class MappingFullMetric {
  public:
   static constexpr int kReach = 2;
 
   /// Keeps references; moves positions.
   MappingFullMetric(CollapseMesh& mesh, const WedgeTable& wedges, std::span<glm::vec3> positions,
-                    std::size_t n_faces, const LindstromTurkOptions& options = {})
-      : places_(mesh, positions, options), bound_(mesh, wedges, positions, n_faces) {}
+                    Deviations deviations, const LindstromTurkOptions& options = {})
+      : places_(mesh, positions, options), look_(mesh, wedges, positions, std::move(deviations)) {}
 
-  float cost(std::uint32_t u, std::uint32_t v) { return bound_.look(u, v, places_.place(u, v)); }
+  float cost(std::uint32_t u, std::uint32_t v) { return look_.look(u, v, places_.place(u, v)); }
   glm::vec3 place(std::uint32_t u, std::uint32_t v) { return places_.place(u, v); }
   bool allows(const CollapseMesh&, std::uint32_t u, std::uint32_t v, const glm::vec3& place) {
-    return bound_.look(u, v, place) < std::numeric_limits<float>::infinity();
+    return look_.look(u, v, place) < std::numeric_limits<float>::infinity();
   }
   void collapsed(std::uint32_t u, std::uint32_t v, const glm::vec3& place) {
     places_.collapsed(u, v, place);
-    bound_.take();
+    look_.take();
   }
-  float bound() const { return bound_.bound(); }
+  /// As MappingMetric::bound().
+  float bound() const {
+    if constexpr (requires { look_.deviations().bound(); }) return look_.deviations().bound();
+    return -1;
+  }
 
  private:
   LindstromTurkMetric places_;
-  CollapseBound bound_;
+  CollapseLook<Deviations> look_;
 };
 
 }  // namespace viewcell

@@ -1,7 +1,7 @@
 // A metric for the loop that builds progressive meshes.
 #pragma once
 
-#include "pm/collapse_bound.h"
+#include "pm/collapse_look.h"
 #include "pm/collapse_loop.h"
 #include "pm/nearest.h"
 #include "pm/recorder.h"
@@ -64,7 +64,7 @@ struct RecordedMetric {
   }
   /// A bound of the distance from the input so far; below 0: not known.
   float error() const {
-    if (guard) return guard->bound();
+    if (guard) return guard->deviations().bound();
     if constexpr (requires { metric.bound(); }) return metric.bound();
     return -1;
   }

@@ -110,7 +110,7 @@ done
 fault 2 "placement" "$pmesh" build ball.off --metric lt --placement half -o x.pm
 fault 2 "placement" "$pmesh" build relief.obj --metric aps --placement full -o x.pm
 fault 2 "mapping with --placement full" \
-  "$pmesh" build relief.obj --metric mapping --measure mean --placement full -o x.pm
+  "$pmesh" build relief.obj --metric mapping --error incremental --placement full -o x.pm
 fault 2 "is no metric" "$pmesh" build ball.off --metric best -o x.pm
 fault 2 "needs -o" "$pmesh" build ball.off
 fault 2 "needs -o" "$pmesh" extract some.pm --faces 400
