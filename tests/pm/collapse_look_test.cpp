@@ -89,7 +89,7 @@ TEST(CollapseLook, BoundsTheDistanceOfAFullEdge) {
       sum += measured / said;
     }
     EXPECT_GT(tightest, 0.95);
-    EXPECT_GT(sum / 150, 0.5);
+    EXPECT_GT(sum / 150, 0.77);
   }
 }
 

@@ -210,6 +210,47 @@ TEST(TextureQemFull, PlacesWhereTheCostIsLeast) {
   }
 }
 
+// Along the border of two charts: on the edge, where the sum is least there.
+TEST(TextureQemFull, BorderPlacesAreTheLeastOfTheEdge) {
+  TriMesh mesh = make_noisy_sphere(3, 0.2, 6);
+  for (const Triangle& t : mesh.triangles) {
+    const float z = mesh.positions[t[0]].z + mesh.positions[t[1]].z + mesh.positions[t[2]].z;
+    for (const std::uint32_t v : t)
+      mesh.texcoords.emplace_back(mesh.positions[v].x + (z > 0 ? 3 : 0), mesh.positions[v].y);
+  }
+  WedgeMesh wedges = make_wedges(mesh);
+  CollapseMesh work(wedges.positions, wedges.vertex_triangles());
+  WedgeTable table(wedges);
+  TextureQemFullMetric metric(work, wedges, table, wedges.positions, wedges.texcoords);
+  const TextureQuadrics quadrics(wedges, wedges.positions, wedges.texcoords, {});
+  int n_inside = 0, n_borders = 0;
+  for (const Triangle& t : wedges.vertex_triangles()) {
+    const auto [u, v, w] = t;
+    if (!table.match(work, u, v, true) || table.pairs().size() != 2) continue;
+    ++n_borders;
+    const std::vector<WedgeTable::Pair> pairs = table.pairs();
+    const auto value_at = [&](double along) {
+      double value = 0;
+      for (const auto& [from, to] : pairs) {
+        const Vec5 a = quadrics.point(u, from);
+        Vec5 x = quadrics.point(v, to);
+        for (std::size_t i = 0; i < 5; ++i) x[i] += along * (a[i] - x[i]);
+        value += quadrics.of_wedges[from].value(x) + quadrics.of_wedges[to].value(x);
+      }
+      return value;
+    };
+    const glm::dvec3 at_u(wedges.positions[u]), at_v(wedges.positions[v]);
+    const glm::dvec3 place(metric.place(u, v));
+    const double along = glm::distance(place, at_v) / glm::distance(at_u, at_v);
+    EXPECT_LT(glm::distance(place, glm::mix(at_v, at_u, along)), 1e-5);
+    EXPECT_FALSE(metric.texcoord());
+    n_inside += along > 0.05 && along < 0.95;
+    for (double s = 0; s <= 1; s += 0.05) EXPECT_LE(value_at(along), value_at(s) + 1e-6);
+  }
+  EXPECT_GT(n_borders, 10);
+  EXPECT_GT(n_inside, n_borders / 4);
+}
+
 // On a plane with an affine texture wherever the place is, its texture coordinates are the plane's
 // there; along the border of two charts both stay on it.
 TEST(TextureQemFull, FlatTexturesStay) {
