@@ -1,6 +1,7 @@
 // A bound on the distance between a mesh that is being collapsed and its input.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -31,6 +32,8 @@ class DeviationBoxes {
   /// Of u's own deviation after the map's last place(); that of the whole map is not below it.
   float least_reach(const CollapseMap& map) const;
   void take(const Change& change);
+  /// Of a face: its points are as far from the input at most.
+  float reach(std::uint32_t face) const { return std::sqrt(boxes_[face].reach2()); }
   /// No point of the mesh, nor of the input, is farther than this from the other surface.
   float bound() const { return bound_; }
 
