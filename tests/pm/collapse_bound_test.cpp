@@ -118,6 +118,23 @@ TEST(CollapseBound, FlatFullEdgesCostNothing) {
   }
 }
 
+// Where vertices of the file are split, for their normals say, the surface is none the less whole.
+TEST(CollapseBound, SplitVerticesDoNotCutIt) {
+  const TriMesh grid = make_flat_grid(8);
+  TriMesh soup;
+  for (const Triangle& t : grid.triangles) {
+    const auto first = static_cast<std::uint32_t>(soup.positions.size());
+    for (const std::uint32_t v : t) soup.positions.push_back(grid.positions[v]);
+    soup.triangles.push_back({first, first + 1, first + 2});
+  }
+  BuildOptions options;
+  options.track_error = true;
+  ProgressiveMesh pm(build_progressive_mesh(soup, options).record);
+  pm.set_faces(4);
+  EXPECT_LE(pm.n_faces(), 4u);
+  EXPECT_LT(pm.error(), 1e-5f);
+}
+
 TEST(CollapseBound, ABoundIsKept) {
   const TriMesh sphere = make_noisy_sphere(4, 0.02, 3);
   BuildOptions options;

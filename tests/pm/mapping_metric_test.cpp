@@ -199,7 +199,8 @@ TEST(MappingMetric, NoFaceTurnsOverInTheTexture) {
 // Costs of the mean add up to the mean square distance of matched points, which is about that of
 // nearest points, and no less than it.
 TEST(MappingMetric, MeansAddUp) {
-  for (const std::uint64_t seed : {1u, 2u, 3u}) {
+  for (const std::uint64_t seed : {1u, 2u, 3u, 4u}) {
+    SCOPED_TRACE(seed);
     TriMesh sphere = make_noisy_sphere(4, 0.01, seed);
     for (const Triangle& t : sphere.triangles)
       for (const std::uint32_t v : t)
@@ -208,6 +209,7 @@ TEST(MappingMetric, MeansAddUp) {
     BuildOptions options;
     options.metric = MetricKind::mapping;
     options.measure = Measure::mean;
+    if (seed > 2) options.placement = Placement::full;
     const BuildResult built = build_progressive_mesh(sphere, options);
     ProgressiveMesh pm(built.record);
     for (const std::size_t n : {500u, 200u, 100u}) {
@@ -219,7 +221,8 @@ TEST(MappingMetric, MeansAddUp) {
       distance.n_samples = 20000;
       const double rms = measure_surface_distance(sphere, pm.extract(), distance).forward.rms;
       EXPECT_GT(std::sqrt(square), 0.98 * rms) << n;
-      EXPECT_LT(std::sqrt(square), 1.35 * rms) << n;
+      // two steps a collapse, either of which may go astray and the other bring back
+      EXPECT_LT(std::sqrt(square), (seed > 2 ? 1.6 : 1.35) * rms) << n;
     }
   }
 }
