@@ -2,59 +2,66 @@
 
 namespace viewcell {
 
-void IndexedHeap::set(std::uint32_t id, float key) {
-  if (place_[id] == kAbsent) {
-    key_[id] = key;
-    place_[id] = static_cast<std::uint32_t>(ids_.size());
-    ids_.push_back(id);
-    sift_up(place_[id]);
-    return;
+// Unused entries come last of all, so that a family is always compared whole.
+std::uint32_t IndexedHeap::least_child(std::uint32_t place) const {
+  const auto& [a, b, c, d] = families_[place + 1].entries;
+  const Entry ab = a < b ? a : b, cd = c < d ? c : d;
+  const std::uint32_t in_ab = a < b ? 1 : 2, in_cd = c < d ? 3 : 4;
+  return kChildren * place + (ab < cd ? in_ab : in_cd);
+}
+
+std::array<std::uint32_t, 4> IndexedHeap::next() const {
+  std::array<std::uint32_t, 4> ids{kNone, kNone, kNone, kNone};
+  std::uint32_t place = 0;
+  for (std::uint32_t& id : ids) {
+    if (place + 1 >= families_.size()) break;
+    place = least_child(place);
+    id = id_of(at(place));
   }
-  const bool sooner = key < key_[id];
-  key_[id] = key;
-  sooner ? sift_up(place_[id]) : sift_down(place_[id]);
+  return ids;
+}
+
+void IndexedHeap::set(std::uint32_t id, float key) {
+  const Entry e = make_entry(id, key);
+  if (place_[id] == kAbsent) {
+    if ((size_ + kFront) / kChildren >= families_.size()) families_.emplace_back();
+    return sift_up(size_++, e);
+  }
+  e < at(place_[id]) ? sift_up(place_[id], e) : sift_down(place_[id], e);
 }
 
 void IndexedHeap::erase(std::uint32_t id) {
   const std::uint32_t hole = place_[id];
   if (hole == kAbsent) return;
-  const std::uint32_t last = ids_.back();
-  ids_.pop_back();
+  const Entry last = at(--size_), gone = at(hole);
+  at(size_) = kLast;
   place_[id] = kAbsent;
-  if (last == id) return;
-  ids_[hole] = last;
-  place_[last] = hole;
-  sift_up(hole);
-  sift_down(place_[last]);
+  if (hole != size_) last < gone ? sift_up(hole, last) : sift_down(hole, last);
 }
 
-void IndexedHeap::sift_up(std::uint32_t place) {
-  const std::uint32_t id = ids_[place];
+void IndexedHeap::sift_up(std::uint32_t place, Entry e) {
   while (place > 0) {
-    const std::uint32_t parent = (place - 1) / 2;
-    if (!before(id, ids_[parent])) break;
-    ids_[place] = ids_[parent];
-    place_[ids_[place]] = place;
+    const std::uint32_t parent = (place - 1) / kChildren;
+    if (at(parent) < e) break;
+    put(place, at(parent));
     place = parent;
   }
-  ids_[place] = id;
-  place_[id] = place;
+  put(place, e);
 }
 
-void IndexedHeap::sift_down(std::uint32_t place) {
-  const std::uint32_t id = ids_[place];
-  const auto n = static_cast<std::uint32_t>(ids_.size());
-  for (;;) {
-    std::uint32_t child = 2 * place + 1;
-    if (child >= n) break;
-    if (child + 1 < n && before(ids_[child + 1], ids_[child])) ++child;
-    if (!before(ids_[child], id)) break;
-    ids_[place] = ids_[child];
-    place_[ids_[place]] = place;
+void IndexedHeap::sift_down(std::uint32_t place, Entry e) {
+  while (place + 1 < families_.size()) {
+    const std::size_t grandchildren = std::size_t{kChildren} * place + 2;
+    if (grandchildren + 3 < families_.size()) {
+      __builtin_prefetch(&families_[grandchildren]);
+      __builtin_prefetch(&families_[grandchildren + 2]);
+    }
+    const std::uint32_t child = least_child(place);
+    if (e < at(child)) break;
+    put(place, at(child));
     place = child;
   }
-  ids_[place] = id;
-  place_[id] = place;
+  put(place, e);
 }
 
 }  // namespace viewcell

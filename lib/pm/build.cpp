@@ -29,7 +29,7 @@ Enum parse_name(const std::array<const char*, N>& names, const std::string& name
 
 // The power of two that brings the box's longest side into [1, 2): with it float products neither
 // vanish nor overflow, and no digit of a position is lost.
-float unit_scale(const std::vector<glm::vec3>& positions) {
+float unit_scale(std::span<const glm::vec3> positions) {
   Box box;
   for (const glm::vec3& p : positions) box.add(p);
   const glm::dvec3 size = box.size();
@@ -80,7 +80,7 @@ CollapseCounts collapse_all(CollapseMesh& mesh, Metric& metric, Recorder& record
 CollapseCounts run_metric(CollapseMesh& mesh, WedgeMesh& wedges,
                           const std::vector<Triangle>& triangles, Recorder& recorder, float scale,
                           const BuildOptions& options, const Progress& progress) {
-  std::vector<glm::vec3>& positions = wedges.positions;
+  std::span<glm::vec3> positions = wedges.positions;
   std::optional<CollapseBound> guard;
   if (options.track_error || std::isfinite(options.error_bound))
     guard.emplace(mesh, recorder.table(), positions, DeviationBoxes(triangles.size()));

@@ -64,10 +64,10 @@ QuadricScale make_quadric_scale(std::span<const glm::vec3> positions,
   return scale;
 }
 
-std::vector<Quadric> make_boundary_quadrics(std::span<const glm::vec3> positions,
+LargeVector<Quadric> make_boundary_quadrics(std::span<const glm::vec3> positions,
                                             std::span<const Triangle> triangles,
                                             const glm::dvec3& centre, const QemOptions& options) {
-  std::vector<Quadric> quadrics(positions.size());
+  LargeVector<Quadric> quadrics(positions.size());
   const auto at = [&](std::uint32_t v) { return glm::dvec3(positions[v]) - centre; };
   for (const EdgeUse& edge : find_boundary_edges(triangles, positions.size())) {
     const glm::dvec3 along = at(edge.b) - at(edge.a);
@@ -82,10 +82,10 @@ std::vector<Quadric> make_boundary_quadrics(std::span<const glm::vec3> positions
   return quadrics;
 }
 
-std::vector<Quadric> make_quadrics(std::span<const glm::vec3> positions,
+LargeVector<Quadric> make_quadrics(std::span<const glm::vec3> positions,
                                    std::span<const Triangle> triangles, const glm::dvec3& centre,
                                    const QemOptions& options) {
-  std::vector<Quadric> quadrics(positions.size());
+  LargeVector<Quadric> quadrics(positions.size());
   const auto at = [&](std::uint32_t v) { return glm::dvec3(positions[v]) - centre; };
   for (const Triangle& t : triangles) {
     const glm::dvec3 normal = area_vector(at, t);
@@ -94,7 +94,7 @@ std::vector<Quadric> make_quadrics(std::span<const glm::vec3> positions,
     const double weight = options.area_weighted ? area / 3 : 1;
     for (const std::uint32_t v : t) quadrics[v].add_plane(normal / area, at(v), weight);
   }
-  const std::vector<Quadric> boundaries =
+  const LargeVector<Quadric> boundaries =
       make_boundary_quadrics(positions, triangles, centre, options);
   for (std::size_t v = 0; v < quadrics.size(); ++v) quadrics[v].add(boundaries[v]);
   return quadrics;

@@ -24,11 +24,11 @@ struct QemOptions {
 /// The quadrics of all vertices: sums over their triangles' planes, and over planes through
 /// boundary edges at right angles to their triangle. Positions are taken relative to `centre`,
 /// against cancellation.
-std::vector<Quadric> make_quadrics(std::span<const glm::vec3> positions,
+LargeVector<Quadric> make_quadrics(std::span<const glm::vec3> positions,
                                    std::span<const Triangle> triangles, const glm::dvec3& centre,
                                    const QemOptions& options = {});
 /// The part of them that boundary edges make.
-std::vector<Quadric> make_boundary_quadrics(std::span<const glm::vec3> positions,
+LargeVector<Quadric> make_boundary_quadrics(std::span<const glm::vec3> positions,
                                             std::span<const Triangle> triangles,
                                             const glm::dvec3& centre, const QemOptions& options);
 glm::dvec3 box_centre(std::span<const glm::vec3> positions);
@@ -60,6 +60,11 @@ class QemMetric {
     return scale_.cost(quadrics_[u].value(p) + quadrics_[v].value(p),
                        quadrics_[u].weight + quadrics_[v].weight);
   }
+  void fetch(std::uint32_t v) const {
+    __builtin_prefetch(&positions_[v]);
+    __builtin_prefetch(&quadrics_[v]);
+    __builtin_prefetch(&quadrics_[v].c);
+  }
   bool allows(const CollapseMesh&, std::uint32_t, std::uint32_t) const { return true; }
   void collapsed(std::uint32_t u, std::uint32_t v) { quadrics_[v].add(quadrics_[u]); }
 
@@ -67,7 +72,7 @@ class QemMetric {
   std::span<const glm::vec3> positions_;
   glm::dvec3 centre_;
   QuadricScale scale_;
-  std::vector<Quadric> quadrics_;
+  LargeVector<Quadric> quadrics_;
 };
 
 /// Full-edge collapses into the point where the quadrics' sum is least. Moves positions.
@@ -106,7 +111,7 @@ class QemFullMetric {
   std::span<glm::vec3> positions_;
   glm::dvec3 centre_;
   QuadricScale scale_;
-  std::vector<Quadric> quadrics_;
+  LargeVector<Quadric> quadrics_;
 };
 
 }  // namespace viewcell

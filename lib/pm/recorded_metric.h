@@ -27,6 +27,8 @@ struct RecordedMetric {
   }();
 
   float cost(std::uint32_t u, std::uint32_t v) { return metric.cost(u, v); }
+  void fetch(std::uint32_t v) const requires requires(Metric m) { m.fetch(v); }
+  { metric.fetch(v); }
   float cost_at_least(std::uint32_t u, std::uint32_t v) requires requires(Metric m) {
     m.cost_at_least(u, v);
   }

@@ -26,8 +26,8 @@ struct TextureQuadrics {
   glm::dvec3 centre;                        ///< of the box: positions are relative to it
   double scale = 0;                         ///< of texture coordinates
   QuadricScale cost_scale;
-  std::vector<Quadric5> of_wedges;
-  std::vector<Quadric> boundaries;  ///< by vertex
+  LargeVector<Quadric5> of_wedges;
+  LargeVector<Quadric> boundaries;  ///< by vertex
 
   TextureQuadrics(const WedgeMesh& input, std::span<const glm::vec3> positions,
                   const std::vector<glm::vec2>& texcoords, const TextureQemOptions& options);

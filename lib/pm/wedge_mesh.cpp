@@ -103,9 +103,9 @@ std::vector<std::uint32_t> weld(const std::vector<glm::vec3>& positions,
   return first;
 }
 
-template <typename T>
-void permute(std::vector<T>& values, const std::vector<std::uint32_t>& order) {
-  std::vector<T> out;
+template <typename Vector>
+void permute(Vector& values, const std::vector<std::uint32_t>& order) {
+  Vector out;
   out.reserve(values.size());
   for (const std::uint32_t i : order) out.push_back(values[i]);
   values = std::move(out);
@@ -138,7 +138,7 @@ std::vector<Triangle> WedgeMesh::vertex_triangles() const {
 
 WedgeMesh make_wedges(const TriMesh& mesh, bool along_curve) {
   WedgeMesh out;
-  out.positions = mesh.positions;
+  out.positions.assign(mesh.positions.begin(), mesh.positions.end());
   const std::vector<std::uint64_t> codes = morton_codes(mesh.positions);
   const std::vector<std::uint32_t> order = sorted_order(codes);
   out.wedge_vertex = weld(mesh.positions, codes, order);

@@ -15,7 +15,7 @@ namespace viewcell {
 /// further wedges are second, third, ... texture coordinates of one. Vertices and faces may stand
 /// along a curve through space, so that neighbours lie together in memory.
 struct WedgeMesh {
-  std::vector<glm::vec3> positions;
+  LargeVector<glm::vec3> positions;
   std::vector<std::uint32_t> vertex_source;  ///< vertex -> the file's number of it
   std::vector<std::uint32_t> wedge_vertex;   ///< wedge -> vertex
   std::vector<std::uint32_t> wedge_source;   ///< wedge -> vertex of the file, for its attributes
@@ -56,7 +56,7 @@ class WedgeTable {
   bool add_pair(const Pair& pair, bool full);
   void pair_rest(const CollapseMesh& mesh, std::uint32_t u);
   bool has_charts_;
-  std::vector<std::uint32_t> corners_;
+  LargeVector<std::uint32_t> corners_;
   std::vector<Pair> pairs_;
 };
 

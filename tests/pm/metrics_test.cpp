@@ -17,7 +17,7 @@ TEST(QemFullMetric, PlacesWhereTheCostIsLeast) {
   TriMesh mesh = make_noisy_sphere(2, 0.2, 1);
   QemFullMetric metric(mesh.positions, mesh.triangles);
   const glm::dvec3 centre = box_centre(mesh.positions);
-  const std::vector<Quadric> quadrics = make_quadrics(mesh.positions, mesh.triangles, centre);
+  const LargeVector<Quadric> quadrics = make_quadrics(mesh.positions, mesh.triangles, centre);
   Random random(2);
   for (const Triangle& t : mesh.triangles) {
     Quadric sum = quadrics[t[0]];
