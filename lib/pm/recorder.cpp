@@ -68,10 +68,9 @@ void Recorder::traced(std::uint32_t, std::uint32_t v, const CollapseTrace& trace
 
 void Recorder::made(std::uint32_t u, std::uint32_t v, float cost, float error,
                     const CollapseTrace& trace) {
-  splits_.push_back({mesh_.vertex_source[u], mesh_.vertex_source[v], size32(trace.died),
-                     size32(trace.moved), size32(matched_), cost, error});
-  for (const std::uint32_t face : trace.died) born_.push_back(mesh_.face_place[face]);
-  for (const std::uint32_t c : trace.moved) moved_.push_back(3 * mesh_.face_place[c / 3] + c % 3);
+  splits_.push_back({u, v, size32(trace.died), size32(trace.moved), size32(matched_), cost, error});
+  born_.insert(born_.end(), trace.died.begin(), trace.died.end());
+  moved_.insert(moved_.end(), trace.moved.begin(), trace.moved.end());
   for (const std::uint32_t wedge : moved_from_) moved_by_.push_back(place_of(wedge));
   for (const auto& [from, to] : matched_) pairs_.push_back({from, to});
   if (!is_full_) return;
@@ -124,6 +123,16 @@ void Recorder::add_attributes(ProgressiveRecord& r) const {
   }
 }
 
+// From the mesh's numbers, along the curve, to the input's.
+void Recorder::renumber() {
+  for (VertexSplit& split : splits_) {
+    split.child = mesh_.vertex_source[split.child];
+    split.parent = mesh_.vertex_source[split.parent];
+  }
+  for (std::uint32_t& face : born_) face = mesh_.face_place[face];
+  for (std::uint32_t& c : moved_) c = 3 * mesh_.face_place[c / 3] + c % 3;
+}
+
 void Recorder::add_splits(ProgressiveRecord& r) {
   const auto one = [](const VertexSplit&) { return 1; };
   r.born = reverse_groups(born_, splits_, [](const VertexSplit& s) { return s.n_born; });
@@ -139,6 +148,7 @@ void Recorder::add_splits(ProgressiveRecord& r) {
 
 ProgressiveRecord Recorder::finish() {
   ProgressiveRecord r;
+  renumber();
   add_splits(r);
   add_attributes(r);
   r.texcoords = std::move(texcoords_);

@@ -48,6 +48,7 @@ class Recorder {
   glm::vec3 unscaled(std::uint32_t v, const glm::vec3& p) const;
   void move_texcoords();
   void add_attributes(ProgressiveRecord& record) const;
+  void renumber();
   void add_splits(ProgressiveRecord& record);
 
   const WedgeMesh& mesh_;
