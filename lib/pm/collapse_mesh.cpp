@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
+#include <utility>
 
 namespace viewcell {
 
@@ -11,149 +13,233 @@ const char* refusal_name(Refusal refusal) {
   return names[static_cast<int>(refusal)];
 }
 
+namespace {
+
+constexpr std::size_t kLanes = 8;
+constexpr std::uint32_t kNoVertex = 0xffffffffu;
+// Numbers that one instruction compares (of GCC and Clang).
+using Lanes [[gnu::vector_size(kLanes * sizeof(std::uint32_t))]] = std::uint32_t;
+
+// Whether each of the values is among n others exactly once; the values filled up to 8 with
+// kNoVertex.
+bool match_once(const std::uint32_t* values, const std::uint32_t* others, std::size_t n) {
+  Lanes all, n_equal{};
+  std::memcpy(&all, values, sizeof all);
+  for (std::size_t i = 0; i < n; ++i) n_equal -= all == others[i];
+  const Lanes wrong = (n_equal - 1) & (all != kNoVertex);
+  std::uint64_t any[4];
+  std::memcpy(any, &wrong, sizeof any);
+  return (any[0] | any[1] | any[2] | any[3]) == 0;
+}
+
+bool contains(std::span<const std::uint32_t> values, std::uint32_t x) {
+  return std::find(values.begin(), values.end(), x) != values.end();
+}
+
+// One of 64 bits for a vertex: two vertices with different bits are different.
+std::uint64_t bit_of(std::uint32_t v) {
+  return std::uint64_t{1} << (v % 64);
+}
+
+}  // namespace
+
 CollapseMesh::CollapseMesh(std::span<const glm::vec3> positions,
                            std::span<const Triangle> triangles)
-    : positions_(positions),
-      corners_(3 * triangles.size(), {kEnd, kEnd}),
-      alive_(triangles.size(), false),
-      head_(positions.size(), kEnd),
-      mark_(positions.size(), 0) {
-  for (std::size_t t = triangles.size(); t-- > 0;) {  // backwards: lists end up in input order
-    const Triangle& triangle = triangles[t];
-    if (triangle[0] == triangle[1] || triangle[1] == triangle[2] || triangle[2] == triangle[0])
-      continue;
+    : positions_(positions), alive_(triangles.size(), false), stars_(positions.size()) {
+  vertices_.reserve(3 * triangles.size());
+  for (const Triangle& t : triangles) {
+    vertices_.insert(vertices_.end(), t.begin(), t.end());
+    if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) continue;
+    alive_[vertices_.size() / 3 - 1] = true;
     ++n_triangles_;
-    alive_[t] = true;
-    for (std::uint32_t k = 0; k < 3; ++k) {
-      const auto c = static_cast<std::uint32_t>(3 * t + k);
-      corners_[c] = {triangle[k], head_[triangle[k]]};
-      head_[triangle[k]] = c;
-    }
+    for (const std::uint32_t v : t) ++stars_[v].n;
+  }
+  corners_.reserve(3 * n_triangles_ + 3 * n_triangles_ / 4);  // room for a quarter of new lists
+  corners_.resize(3 * n_triangles_);
+  std::uint32_t end = 0;
+  for (Star& star : stars_) {
+    star.first = end;
+    end += std::exchange(star.n, 0);
+  }
+  for (std::uint32_t c = 0; c < vertices_.size(); ++c) {
+    if (!alive_[c / 3]) continue;
+    Star& star = stars_[vertices_[c]];
+    corners_[star.first + star.n++] = c;
   }
 }
 
-void CollapseMesh::ring(std::uint32_t v, std::vector<std::uint32_t>& out) const {
-  out.clear();
-  for_each_triangle(v, [&](std::uint32_t a, std::uint32_t b) {
-    if (std::find(out.begin(), out.end(), a) == out.end()) out.push_back(a);
-    if (std::find(out.begin(), out.end(), b) == out.end()) out.push_back(b);
+void CollapseMesh::Fan::gather(const CollapseMesh& mesh, std::uint32_t v) {
+  const auto corners = mesh.corners(v);
+  n = corners.size();
+  const std::size_t n_padded = (n + kLanes - 1) / kLanes * kLanes;
+  if (a.size() < n_padded) a.resize(n_padded), b.resize(n_padded);
+  std::size_t i = 0;
+  mesh.for_each_triangle(v, [&](std::uint32_t at_a, std::uint32_t at_b) {
+    a[i] = at_a;
+    b[i++] = at_b;
   });
+  for (; i < n_padded; ++i) a[i] = b[i] = kNoVertex;
+}
+
+// Whether each a is one b, and each b is one a: then the triangles are fans around v, all wound
+// alike, and every neighbour is one a.
+bool CollapseMesh::Fan::is_closed() const {
+  const auto all_once = [&](const std::vector<std::uint32_t>& x,
+                            const std::vector<std::uint32_t>& y) {
+    for (std::size_t i = 0; i < n; i += kLanes)
+      if (!match_once(&x[i], y.data(), n)) return false;
+    return true;
+  };
+  return all_once(a, b) && all_once(b, a);
+}
+
+void CollapseMesh::ring(std::uint32_t v, std::vector<std::uint32_t>& out) {
+  fan_v_.gather(*this, v);
+  const auto a = fan_v_.all_a(), b = fan_v_.all_b();
+  out.assign(a.begin(), a.end());
+  if (fan_v_.is_closed()) return;
+  out.clear();
+  for (std::size_t i = 0; i < fan_v_.n; ++i) {
+    if (!contains(out, a[i])) out.push_back(a[i]);
+    if (!contains(out, b[i])) out.push_back(b[i]);
+  }
 }
 
 Refusal CollapseMesh::check(std::uint32_t u, std::uint32_t v, float min_cosine) {
   bool is_boundary_edge = false;
-  if (!keeps_topology(u, v, is_boundary_edge)) return Refusal::link;
-  if (!is_boundary_edge && is_on_boundary(u)) return Refusal::boundary;
-  return check_move(u, v, positions_[v], min_cosine);
+  fan_u_.gather(*this, u);
+  if (!keeps_topology(fan_u_, u, v, is_boundary_edge)) return Refusal::link;
+  if (!is_boundary_edge && fan_u_.has_odd_edge()) return Refusal::boundary;
+  return check_move(fan_u_, u, v, positions_[v], min_cosine);
 }
 
 Refusal CollapseMesh::check(std::uint32_t u, std::uint32_t v, const glm::vec3& place,
                             float min_cosine) {
   bool is_boundary_edge = false;
-  if (!keeps_topology(u, v, is_boundary_edge)) return Refusal::link;
-  if (!is_boundary_edge && is_on_boundary(u) && is_on_boundary(v)) return Refusal::boundary;
-  const Refusal refusal = check_move(u, v, place, min_cosine);
-  return refusal != Refusal::none ? refusal : check_move(v, u, place, min_cosine);
+  fan_u_.gather(*this, u);
+  fan_v_.gather(*this, v);
+  if (!keeps_topology(fan_u_, u, v, is_boundary_edge)) return Refusal::link;
+  if (!is_boundary_edge && fan_u_.has_odd_edge() && fan_v_.has_odd_edge()) return Refusal::boundary;
+  const Refusal refusal = check_move(fan_u_, u, v, place, min_cosine);
+  return refusal != Refusal::none ? refusal : check_move(fan_v_, v, u, place, min_cosine);
 }
 
 // The link condition [Dey, Edelsbrunner, Guha, Nekhayev 1999]: a vertex joined to both u and v must
 // be the third corner of a triangle at uv, and no triangle of u may come to lie on one of v. (The
 // three neighbours of a vertex with three triangles are all joined; it may go unless they have a
 // triangle of their own, as in a tetrahedron.)
-bool CollapseMesh::keeps_topology(std::uint32_t u, std::uint32_t v, bool& is_boundary_edge) {
-  stamp_ += 4;
-  const std::uint32_t at_u = stamp_, opposite = stamp_ + 1;
-  for_each_triangle(u, [&](std::uint32_t a, std::uint32_t b) {
-    mark_[a] = std::max(mark_[a], at_u);
-    mark_[b] = std::max(mark_[b], at_u);
-    if (a == v) mark_[b] = opposite;
-    if (b == v) mark_[a] = opposite;
-  });
+bool CollapseMesh::keeps_topology(const Fan& of_u, std::uint32_t u, std::uint32_t v,
+                                  bool& is_boundary_edge) {
+  std::uint64_t around_u = 0;  // most vertices around v are not among these bits
+  opposite_.clear();
+  for (std::size_t i = 0; i < of_u.n; ++i) {
+    around_u |= bit_of(of_u.a[i]) | bit_of(of_u.b[i]);
+    if (of_u.a[i] == v) opposite_.push_back(of_u.b[i]);
+    if (of_u.b[i] == v) opposite_.push_back(of_u.a[i]);
+  }
+  const auto joins_wrongly = [&](std::uint32_t w) {  // joined to both, but no triangle u v w
+    return (around_u & bit_of(w)) && w != u && !contains(opposite_, w) &&
+           (contains(of_u.all_a(), w) || contains(of_u.all_b(), w));
+  };
+  const auto is_triangle_of_u = [&](std::uint32_t a, std::uint32_t b) {
+    for (std::size_t i = 0; i < of_u.n; ++i)
+      if ((of_u.a[i] == a && of_u.b[i] == b) || (of_u.a[i] == b && of_u.b[i] == a)) return true;
+    return false;
+  };
   int n_shared = 0;
   bool legal = true;
   for_each_triangle(v, [&](std::uint32_t a, std::uint32_t b) {
     n_shared += (a == u) + (b == u);
-    for (const std::uint32_t w : {a, b})
-      if (w != u && mark_[w] == at_u) legal = false;  // joined to both, but no triangle u v w
-    if (mark_[a] == opposite && mark_[b] == opposite && has_triangle(u, a, b)) legal = false;
+    if (joins_wrongly(a) || joins_wrongly(b)) legal = false;
+    if ((around_u & bit_of(a)) && (around_u & bit_of(b)) && contains(opposite_, a) &&
+        contains(opposite_, b) && is_triangle_of_u(a, b))
+      legal = false;
   });
   is_boundary_edge = n_shared == 1;
   return legal && n_shared > 0;
 }
 
-bool CollapseMesh::has_triangle(std::uint32_t u, std::uint32_t a, std::uint32_t b) const {
-  bool found = false;
-  for_each_triangle(u, [&](std::uint32_t c, std::uint32_t d) {
-    if ((c == a && d == b) || (c == b && d == a)) found = true;
-  });
-  return found;
+bool CollapseMesh::is_on_boundary(std::uint32_t v) {
+  fan_v_.gather(*this, v);
+  return fan_v_.has_odd_edge();
 }
 
-// Whether some edge of u has exactly one triangle.
-bool CollapseMesh::is_on_boundary(std::uint32_t v) {
-  // Each triangle (v, a, b) has the edges v-a and v-b; around an interior vertex every neighbour is
-  // met an even number of times.
-  stamp_ += 4;
-  const std::uint32_t odd = stamp_ + 1, even = stamp_ + 2;
-  int n_odd = 0;
-  for_each_triangle(v, [&](std::uint32_t a, std::uint32_t b) {
-    for (const std::uint32_t w : {a, b}) {
-      const bool was_odd = mark_[w] == odd;
-      mark_[w] = was_odd ? even : odd;
-      n_odd += was_odd ? -1 : 1;
-    }
-  });
-  return n_odd > 0;
+// Whether some vertex is met an odd number of times: each triangle (v, a, b) has the edges v-a and
+// v-b, and around an interior vertex every neighbour is met an even number of times.
+bool CollapseMesh::Fan::has_odd_edge() const {
+  if (is_closed()) return false;
+  const auto n_times = [](std::span<const std::uint32_t> values, std::uint32_t x) {
+    return std::count(values.begin(), values.end(), x);
+  };
+  for (std::size_t i = 0; i < n; ++i)
+    for (const std::uint32_t w : {a[i], b[i]})
+      if ((n_times(all_a(), w) + n_times(all_b(), w)) % 2 == 1) return true;
+  return false;
 }
 
 // Of the triangles of `from` without `other`, when it goes to `to`.
-Refusal CollapseMesh::check_move(std::uint32_t from, std::uint32_t other, const glm::vec3& to,
-                                 float min_cosine) const {
+Refusal CollapseMesh::check_move(const Fan& fan, std::uint32_t from, std::uint32_t other,
+                                 const glm::vec3& to, float min_cosine) const {
   const glm::vec3 at = positions_[from];
-  Refusal refusal = Refusal::none;
-  for_each_triangle(from, [&](std::uint32_t a, std::uint32_t b) {
-    if (a == other || b == other || refusal != Refusal::none) return;
-    const glm::vec3 pa = positions_[a], pb = positions_[b];
+  for (std::size_t i = 0; i < fan.n; ++i) {
+    if (fan.a[i] == other || fan.b[i] == other) continue;
+    const glm::vec3 pa = positions_[fan.a[i]], pb = positions_[fan.b[i]];
     const glm::vec3 before = glm::cross(pa - at, pb - at);
     const glm::vec3 after = glm::cross(pa - to, pb - to);
-    const float limit = min_cosine * std::sqrt(glm::dot(before, before) * glm::dot(after, after));
-    if (glm::dot(before, after) < limit) refusal = Refusal::flip;
     // no area, or next to none for its longest edge (a needle shows as a crack): height < 1e-3 edge
     const float longest = std::max(
         {glm::dot(pa - to, pa - to), glm::dot(pb - to, pb - to), glm::dot(pa - pb, pa - pb)});
-    if (!(glm::dot(after, after) > 1e-6f * longest * longest)) refusal = Refusal::sliver;
-  });
-  return refusal;
+    if (!(glm::dot(after, after) > 1e-6f * longest * longest)) return Refusal::sliver;
+    const float limit = min_cosine * std::sqrt(glm::dot(before, before) * glm::dot(after, after));
+    if (glm::dot(before, after) < limit) return Refusal::flip;
+  }
+  return Refusal::none;
 }
 
 void CollapseMesh::unlink(std::uint32_t v, std::uint32_t corner) {
-  std::uint32_t* link = &head_[v];
-  while (*link != corner) link = &corners_[*link].next;
-  *link = corners_[corner].next;
+  Star& star = stars_[v];
+  std::uint32_t* at = &corners_[star.first];
+  while (*at != corner) ++at;
+  const std::uint32_t* const last = &corners_[star.first] + --star.n;
+  for (; at != last; ++at) *at = at[1];
+}
+
+// Room for n more corners at the end: moves the lists together, in the order of the vertices, when
+// there is none.
+void CollapseMesh::make_room(std::size_t n) {
+  if (corners_.size() + n <= corners_.capacity()) return;
+  LargeVector<std::uint32_t> packed;
+  packed.reserve(std::max(corners_.capacity(), 3 * n_triangles_ + n));
+  for (std::uint32_t v = 0; v < stars_.size(); ++v) {
+    const auto list = corners(v);
+    stars_[v].first = static_cast<std::uint32_t>(packed.size());
+    packed.insert(packed.end(), list.begin(), list.end());
+  }
+  corners_ = std::move(packed);
 }
 
 void CollapseMesh::collapse(std::uint32_t u, std::uint32_t v, CollapseTrace* trace) {
   if (trace) trace->died.clear(), trace->moved.clear();
-  std::uint32_t last = kEnd;  // the last corner of u that lives on
-  for (std::uint32_t c = head_[u]; c != kEnd;) {
-    const std::uint32_t after = corners_[c].next, t = c / 3;
+  make_room(stars_[u].n + stars_[v].n);
+  const auto merged = static_cast<std::uint32_t>(corners_.size());
+  for (const std::uint32_t c : corners(u)) {
+    const std::uint32_t t = c / 3;
     if (vertex_at(3 * t) == v || vertex_at(3 * t + 1) == v || vertex_at(3 * t + 2) == v) {
-      for (std::uint32_t k = 0; k < 3; ++k) unlink(vertex_at(3 * t + k), 3 * t + k);
+      for (std::uint32_t k = 3 * t; k < 3 * t + 3; ++k)
+        if (k != c) unlink(vertex_at(k), k);
       alive_[t] = false;
       --n_triangles_;
       if (trace) trace->died.push_back(t);
     } else {
-      corners_[c].vertex = v;
-      last = c;
+      vertices_[c] = v;
+      corners_.push_back(c);
       if (trace) trace->moved.push_back(c);
     }
-    c = after;
   }
-  if (last != kEnd) {
-    corners_[last].next = head_[v];
-    head_[v] = head_[u];
-  }
-  head_[u] = kEnd;
+  const auto rest = corners(v);
+  corners_.insert(corners_.end(), rest.begin(), rest.end());
+  stars_[v] = {merged, static_cast<std::uint32_t>(corners_.size()) - merged};
+  stars_[u] = {};
 }
 
 std::vector<Triangle> CollapseMesh::triangles() const {

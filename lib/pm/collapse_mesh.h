@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "base/large_vector.h"
 #include "mesh/mesh.h"
 
 namespace viewcell {
@@ -30,44 +31,54 @@ struct CollapseTrace {
   std::vector<std::uint32_t> moved;  ///< corners (3 * triangle + k) that went from u to v
 };
 
-/// Triangles over vertices; a corner c = 3 * triangle + k, and the corners of each vertex
-/// form a linked list. Memory: 24 bytes a triangle, 8 a vertex, and the positions that it refers
-/// to.
+/// Triangles over vertices; a corner c = 3 * triangle + k, and the corners of each vertex stand one
+/// after another in one array. Memory: 27 bytes a triangle, 8 a vertex, and the positions that it
+/// refers to.
 class CollapseMesh {
  public:
   /// Keeps a reference to positions. Triangles with a repeated index are dropped at once. Positions
   /// may be changed by their owner between calls.
   CollapseMesh(std::span<const glm::vec3> positions, std::span<const Triangle> triangles);
 
-  std::size_t n_vertices() const { return head_.size(); }
+  std::size_t n_vertices() const { return stars_.size(); }
   std::size_t n_triangles() const { return n_triangles_; }
   const glm::vec3& position(std::uint32_t v) const { return positions_[v]; }
-  bool has_triangles(std::uint32_t v) const { return head_[v] != kEnd; }
+  bool has_triangles(std::uint32_t v) const { return stars_[v].n > 0; }
   /// The vertex at a corner of a live triangle, or of one that died, when it did.
-  std::uint32_t vertex_at(std::uint32_t corner) const { return corners_[corner].vertex; }
+  std::uint32_t vertex_at(std::uint32_t corner) const { return vertices_[corner]; }
 
   /// Calls visit(a, b) for every triangle (v, a, b) of v, in that winding.
   template <typename Visit>
   void for_each_triangle(std::uint32_t v, Visit&& visit) const {
-    for (std::uint32_t c = head_[v]; c != kEnd; c = corners_[c].next) {
-      const std::uint32_t t = c / 3, k = c % 3;
-      visit(corners_[3 * t + (k + 1) % 3].vertex, corners_[3 * t + (k + 2) % 3].vertex);
+    for (const std::uint32_t c : corners(v)) {
+      const std::uint32_t k = c % 3;
+      visit(vertices_[c + 1 - 3 * (k == 2)], vertices_[c - 1 + 3 * (k == 0)]);
     }
   }
 
   /// Calls visit(corner) for every corner of v.
   template <typename Visit>
   void for_each_corner(std::uint32_t v, Visit&& visit) const {
-    for (std::uint32_t c = head_[v]; c != kEnd; c = corners_[c].next) visit(c);
+    for (const std::uint32_t c : corners(v)) visit(c);
+  }
+
+  /// Hints that v's triangles are wanted soon: each brings in what the next one reads.
+  void fetch_star(std::uint32_t v) const { __builtin_prefetch(&stars_[v]); }
+  void fetch_corners(std::uint32_t v) const {
+    __builtin_prefetch(&corners_[stars_[v].first]);
+    __builtin_prefetch(&corners_[stars_[v].first + stars_[v].n]);
+  }
+  void fetch_triangles(std::uint32_t v) const {
+    for (const std::uint32_t c : corners(v)) __builtin_prefetch(&vertices_[c]);
   }
 
   /// The vertices joined to v by an edge, each once, in an order that depends on the history only.
-  void ring(std::uint32_t v, std::vector<std::uint32_t>& out) const;
+  void ring(std::uint32_t v, std::vector<std::uint32_t>& out);
 
   /// Whether the half-edge collapse u -> v keeps the surface's topology (the link condition),
   /// moves a boundary vertex along its boundary only, and turns no triangle's normal by more than
   /// acos(min_cosine) nor makes one of no area. A triangle on its own may vanish.
-  /// Not thread-safe (scratch marks).
+  /// Not thread-safe (scratch lists).
   Refusal check(std::uint32_t u, std::uint32_t v, float min_cosine);
   /// The same for the full-edge collapse of u and v into `place`: both vertices move, and an edge
   /// from boundary to boundary through the inside is refused.
@@ -83,23 +94,36 @@ class CollapseMesh {
   std::vector<Triangle> triangles() const;
 
  private:
-  static constexpr std::uint32_t kEnd = 0xffffffffu;
+  // The triangles (v, a[i], b[i]) of a vertex.
+  struct Fan {
+    std::size_t n = 0;
+    std::vector<std::uint32_t> a, b;  // n of them, and more to fill whole vectors
+    void gather(const CollapseMesh& mesh, std::uint32_t v);
+    bool is_closed() const;
+    bool has_odd_edge() const;
+    std::span<const std::uint32_t> all_a() const { return {a.data(), n}; }
+    std::span<const std::uint32_t> all_b() const { return {b.data(), n}; }
+  };
+  // Where the corners of a vertex stand.
+  struct Star {
+    std::uint32_t first = 0, n = 0;
+  };
+  std::span<const std::uint32_t> corners(std::uint32_t v) const {
+    return {corners_.data() + stars_[v].first, stars_[v].n};
+  }
   void unlink(std::uint32_t v, std::uint32_t corner);
-  bool keeps_topology(std::uint32_t u, std::uint32_t v, bool& is_boundary_edge);
-  bool has_triangle(std::uint32_t u, std::uint32_t a, std::uint32_t b) const;
-  Refusal check_move(std::uint32_t from, std::uint32_t other, const glm::vec3& to,
+  void make_room(std::size_t n);
+  bool keeps_topology(const Fan& of_u, std::uint32_t u, std::uint32_t v, bool& is_boundary_edge);
+  Refusal check_move(const Fan& fan, std::uint32_t from, std::uint32_t other, const glm::vec3& to,
                      float min_cosine) const;
 
   std::span<const glm::vec3> positions_;
-  struct Corner {
-    std::uint32_t vertex;
-    std::uint32_t next;  // corner of the same vertex
-  };
-  std::vector<Corner> corners_;      // 3 a triangle
-  std::vector<bool> alive_;          // by triangle
-  std::vector<std::uint32_t> head_;  // vertex -> its first corner
-  std::vector<std::uint32_t> mark_;  // vertex -> scratch, compared with stamp_
-  std::uint32_t stamp_ = 0;
+  LargeVector<std::uint32_t> vertices_;  // 3 a triangle
+  std::vector<bool> alive_;              // by triangle
+  LargeVector<Star> stars_;              // by vertex
+  LargeVector<std::uint32_t> corners_;   // of all vertices; new lists stand at the end
+  Fan fan_u_, fan_v_;                    // scratch
+  std::vector<std::uint32_t> opposite_;  // scratch
   std::size_t n_triangles_ = 0;
 };
 
