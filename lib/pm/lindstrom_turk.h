@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "base/large_vector.h"
 #include "pm/collapse_mesh.h"
 #include "pm/quadric.h"
 
@@ -34,7 +35,15 @@ class LindstromTurkMetric {
   void collapsed(std::uint32_t u, std::uint32_t v, const glm::vec3& place) {
     on_boundary_[v] = on_boundary_[u] || on_boundary_[v];
     positions_[v] = place;
-    star_of_ = last_.u = kNone;
+    spokes_of_ = last_.u = kNone;
+    is_fresh_[v] = false;
+    mesh_.for_each_triangle(
+        v, [&](std::uint32_t a, std::uint32_t b) { is_fresh_[a] = is_fresh_[b] = false; });
+  }
+  void fetch(std::uint32_t v) const {
+    __builtin_prefetch(&positions_[v]);
+    __builtin_prefetch(&stars_[v]);
+    __builtin_prefetch(&stars_[v].squares[5]);
   }
 
  private:
@@ -46,7 +55,6 @@ class LindstromTurkMetric {
     double c = 0;
 
     void add(const Quadratic& q, double weight);
-    void add_square(const glm::dvec3& n, double d);              // (n x - d)^2
     void add_cross(const glm::dvec3& e1, const glm::dvec3& e2);  // |e2 - x cross e1|^2
     glm::dvec3 times(const glm::dvec3& x) const;
     double value(const glm::dvec3& x) const;
@@ -56,13 +64,19 @@ class LindstromTurkMetric {
     glm::dvec3 normals{0};  // of the triangles' area vectors, twice the area long
     double volumes = 0;     // of n p over the triangles
     Quadratic volume;       // of (n x - n p)^2, 36 times a squared volume
-    double n_around = 0;    // vertices around, and the sum of their places
-    glm::dvec3 around{0};
     glm::dvec3 along{0}, twist{0};
     Quadratic boundary;  // 4 times a squared area
     bool has_boundary = false;
-
-    void add_triangle(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3& b);
+  };
+  // Sums over the triangles of a vertex, whose planes go through it: seen from there n p is 0.
+  struct Star {
+    glm::dvec3 normals{0};
+    Symmetric3 squares{};  // n n^T
+    void add(const glm::dvec3& n, double sign);
+  };
+  struct Spoke {
+    std::uint32_t a, b;
+    glm::dvec3 normal;
   };
   class Constraints;
   struct Evaluated {
@@ -71,17 +85,25 @@ class LindstromTurkMetric {
     glm::vec3 place{0};
   };
   const Evaluated& evaluate(std::uint32_t u, std::uint32_t v);
-  void gather_star(std::uint32_t u);
+  const Star& star(std::uint32_t v);
+  void gather_spokes(std::uint32_t u);
+  Sums sum_triangles(std::uint32_t u, std::uint32_t v);
+  Quadratic make_shape(std::uint32_t u, std::uint32_t v) const;
   void gather_boundary(std::uint32_t u, std::uint32_t v, Sums& sums);
-  glm::dvec3 least(const Sums& sums, double edge2) const;
+  glm::dvec3 least(std::uint32_t u, std::uint32_t v, const Sums& sums, double edge2) const;
+  glm::dvec3 between(std::uint32_t from, std::uint32_t to) const {
+    return glm::dvec3(positions_[to]) - glm::dvec3(positions_[from]);
+  }
 
   CollapseMesh& mesh_;
   std::span<glm::vec3> positions_;
   LindstromTurkOptions options_;
   double cosine2_, sine2_;  // of the least angle, squared
   std::vector<bool> on_boundary_;
-  std::uint32_t star_of_ = kNone;  // whose triangles star_ sums, relative to it
-  Sums star_;
+  LargeVector<Star> stars_;     // by vertex
+  std::vector<bool> is_fresh_;  // its star is that of the mesh as it is
+  std::uint32_t spokes_of_ = kNone;
+  std::vector<Spoke> spokes_;  // its triangles
   Evaluated last_;
   struct Edge {
     std::uint32_t a, b;
