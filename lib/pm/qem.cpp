@@ -45,6 +45,26 @@ glm::dvec3 area_vector(const At& at, const Triangle& t) {
   return 0.5 * glm::cross(at(t[1]) - at(t[0]), at(t[2]) - at(t[0]));
 }
 
+// The quadrics of the planes through boundary edges.
+LargeVector<Quadric> sum_boundary_planes(const std::vector<EdgeUse>& edges,
+                                         std::span<const glm::vec3> positions,
+                                         std::span<const Triangle> triangles,
+                                         const glm::dvec3& centre, const QemOptions& options) {
+  LargeVector<Quadric> quadrics(positions.size());
+  const auto at = [&](std::uint32_t v) { return glm::dvec3(positions[v]) - centre; };
+  for (const EdgeUse& edge : edges) {
+    const glm::dvec3 along = at(edge.b) - at(edge.a);
+    const glm::dvec3 across = glm::cross(along, area_vector(at, triangles[edge.triangle]));
+    const double length = glm::length(across);
+    if (!(length > 0)) continue;
+    const double weight =
+        options.boundary_weight * (options.area_weighted ? glm::dot(along, along) / 6 : 1);
+    for (const std::uint32_t v : {edge.a, edge.b})
+      quadrics[v].add_plane(across / length, at(v), weight);
+  }
+  return quadrics;
+}
+
 }  // namespace
 
 glm::dvec3 box_centre(std::span<const glm::vec3> positions) {
@@ -67,19 +87,8 @@ QuadricScale make_quadric_scale(std::span<const glm::vec3> positions,
 LargeVector<Quadric> make_boundary_quadrics(std::span<const glm::vec3> positions,
                                             std::span<const Triangle> triangles,
                                             const glm::dvec3& centre, const QemOptions& options) {
-  LargeVector<Quadric> quadrics(positions.size());
-  const auto at = [&](std::uint32_t v) { return glm::dvec3(positions[v]) - centre; };
-  for (const EdgeUse& edge : find_boundary_edges(triangles, positions.size())) {
-    const glm::dvec3 along = at(edge.b) - at(edge.a);
-    const glm::dvec3 across = glm::cross(along, area_vector(at, triangles[edge.triangle]));
-    const double length = glm::length(across);
-    if (!(length > 0)) continue;
-    const double weight =
-        options.boundary_weight * (options.area_weighted ? glm::dot(along, along) / 6 : 1);
-    for (const std::uint32_t v : {edge.a, edge.b})
-      quadrics[v].add_plane(across / length, at(v), weight);
-  }
-  return quadrics;
+  return sum_boundary_planes(find_boundary_edges(triangles, positions.size()), positions, triangles,
+                             centre, options);
 }
 
 LargeVector<Quadric> make_quadrics(std::span<const glm::vec3> positions,
@@ -94,8 +103,10 @@ LargeVector<Quadric> make_quadrics(std::span<const glm::vec3> positions,
     const double weight = options.area_weighted ? area / 3 : 1;
     for (const std::uint32_t v : t) quadrics[v].add_plane(normal / area, at(v), weight);
   }
+  const std::vector<EdgeUse> edges = find_boundary_edges(triangles, positions.size());
+  if (edges.empty()) return quadrics;
   const LargeVector<Quadric> boundaries =
-      make_boundary_quadrics(positions, triangles, centre, options);
+      sum_boundary_planes(edges, positions, triangles, centre, options);
   for (std::size_t v = 0; v < quadrics.size(); ++v) quadrics[v].add(boundaries[v]);
   return quadrics;
 }

@@ -1,6 +1,7 @@
 #include "pm/wedge_mesh.h"
 
 #include <algorithm>
+#include <bit>
 #include <numeric>
 #include <tuple>
 
@@ -67,16 +68,23 @@ std::vector<std::uint32_t> identity(std::uint32_t n) {
   return out;
 }
 
-// 0 ... n - 1 by key, then number.
+// 0 ... n - 1 by key, then number: sorted by one digit of the key after another, the last one
+// first.
 template <typename Key>
 std::vector<std::uint32_t> sorted_order(const std::vector<Key>& keys) {
-  std::vector<std::pair<Key, std::uint32_t>> pairs;
-  pairs.reserve(keys.size());
-  for (std::uint32_t i = 0; i < keys.size(); ++i) pairs.emplace_back(keys[i], i);
-  std::sort(pairs.begin(), pairs.end());
-  std::vector<std::uint32_t> order;
-  order.reserve(keys.size());
-  for (const auto& [key, i] : pairs) order.push_back(i);
+  constexpr int kDigitBits = 11;
+  const auto n = static_cast<std::uint32_t>(keys.size());
+  const Key most = keys.empty() ? 0 : *std::max_element(keys.begin(), keys.end());
+  std::vector<std::uint32_t> order = identity(n), next(n);
+  for (int shift = 0, n_bits = static_cast<int>(std::bit_width(most)); shift < n_bits;
+       shift += kDigitBits) {
+    const auto digit = [&](std::uint32_t i) { return keys[i] >> shift & ((1u << kDigitBits) - 1); };
+    std::vector<std::uint32_t> first(1u << kDigitBits, 0);
+    for (const std::uint32_t i : order) ++first[digit(i)];
+    std::exclusive_scan(first.begin(), first.end(), first.begin(), 0u);
+    for (const std::uint32_t i : order) next[first[digit(i)]++] = i;
+    order.swap(next);
+  }
   return order;
 }
 
