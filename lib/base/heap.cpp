@@ -10,8 +10,9 @@ std::uint32_t IndexedHeap::least_child(std::uint32_t place) const {
   return kChildren * place + (ab < cd ? in_ab : in_cd);
 }
 
-std::array<std::uint32_t, 4> IndexedHeap::next() const {
-  std::array<std::uint32_t, 4> ids{kNone, kNone, kNone, kNone};
+std::array<std::uint32_t, 5> IndexedHeap::next() const {
+  std::array<std::uint32_t, 5> ids;
+  ids.fill(kNone);
   std::uint32_t place = 0;
   for (std::uint32_t& id : ids) {
     if (place + 1 >= families_.size()) break;

@@ -24,7 +24,7 @@ class IndexedHeap {
   std::uint32_t top() const { return id_of(at(0)); }
   /// The ids that come up next, as far as they are likely: the least child of the top one, that
   /// one's least child, and so on. kNone after the last.
-  std::array<std::uint32_t, 4> next() const;
+  std::array<std::uint32_t, 5> next() const;
   static constexpr std::uint32_t kNone = 0xffffffffu;
 
   /// Inserts the id, or changes its key.

@@ -75,7 +75,7 @@ class CollapseLoop {
     CollapseCounts counts;
     while (mesh_.n_triangles() > limits.target_triangles && !heap_.empty()) {
       const std::uint32_t u = heap_.top(), v = target_[u];
-      const std::uint32_t next = fetch_next();
+      fetch_next();
       if (stale_[u] || (kReach > 1 && kPlaces && metric_cost(u, v) > heap_.key(u))) {
         choose(u);
         continue;
@@ -87,7 +87,6 @@ class CollapseLoop {
         choose_legal(u, limits);
         continue;
       }
-      fetch_rings(next);
       const float cost = heap_.key(u);
       counts.last_cost = std::max(counts.last_cost, cost);
       ++counts.n_collapses;
@@ -142,25 +141,23 @@ class CollapseLoop {
     return refusal != Refusal::none ? refusal : as_refusal(metric_.allows(mesh_, u, v));
   }
 
-  // Brings what the next collapses read into the cache while this one is made: each of the ids goes
-  // through the places one after another.
-  std::uint32_t fetch_next() {
-    const auto [first, second, third, fourth] = heap_.next();
-    if (fourth == IndexedHeap::kNone) return IndexedHeap::kNone;
-    mesh_.fetch_star(fourth);
-    __builtin_prefetch(&target_[fourth]);
-    mesh_.fetch_corners(third);
-    mesh_.fetch_star(target_[third]);
-    mesh_.fetch_triangles(second);
-    mesh_.fetch_corners(target_[second]);
-    mesh_.fetch_triangles(target_[first]);
-    return first;
-  }
-  void fetch_rings(std::uint32_t next) {
-    if (next == IndexedHeap::kNone) return;
-    if constexpr (requires { metric_.fetch(0u); })
-      mesh_.for_each_triangle(stale_[next] ? next : target_[next],
-                              [&](std::uint32_t a, std::uint32_t) { metric_.fetch(a); });
+  // Brings what the next collapses read into the cache while this one is made: each vertex goes
+  // through the five places one after another, and each stage has what the one before has fetched.
+  void fetch_next() const {
+    const auto [first, second, third, fourth, fifth] = heap_.next();
+    if (fifth == IndexedHeap::kNone) return;
+    mesh_.fetch_star(fifth);
+    __builtin_prefetch(&target_[fifth]);
+    mesh_.fetch_corners(fourth);
+    mesh_.fetch_star(target_[fourth]);
+    mesh_.fetch_triangles(third);
+    mesh_.fetch_corners(target_[third]);
+    mesh_.fetch_triangles(target_[second]);
+    if constexpr (requires { metric_.fetch(0u); }) {
+      const auto fetch = [&](std::uint32_t a, std::uint32_t) { metric_.fetch(a); };
+      mesh_.for_each_triangle(first, fetch);
+      if (!stale_[first]) mesh_.for_each_triangle(target_[first], fetch);
+    }
   }
 
   // The targets of u, with the least that each can cost.
