@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <limits>
 #include <vector>
 
 #include "base/random.h"
@@ -44,6 +45,31 @@ TEST(IndexedHeap, AgreesWithSortingUnderRandomChanges) {
     for (; !heap.empty(); heap.pop()) popped.emplace_back(heap.key(heap.top()), heap.top());
     EXPECT_EQ(popped, expected);
   }
+}
+
+TEST(IndexedHeap, KeysMayBeNegativeOrInfinite) {
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  const std::vector<float> keys{3, -0.0f, -7, kInfinity, 0.0f, -kInfinity, 1e-30f, -1e-30f};
+  IndexedHeap heap(8);
+  for (std::uint32_t id = 8; id-- > 0;) heap.set(id, keys[id]);
+  for (std::uint32_t id = 0; id < 8; ++id) EXPECT_EQ(heap.key(id), keys[id]);
+  std::vector<std::uint32_t> order;
+  for (; !heap.empty(); heap.pop()) order.push_back(heap.top());
+  EXPECT_EQ(order, (std::vector<std::uint32_t>{5, 2, 7, 1, 4, 6, 0, 3}));  // -0 is 0: by id
+}
+
+TEST(IndexedHeap, NextIsWhatComesAfterTheTop) {
+  Random random(1);
+  IndexedHeap heap(300);
+  for (std::uint32_t id = 0; id < 300; ++id) heap.set(id, static_cast<float>(random.uniform(0, 1)));
+  while (heap.size() > 1) {
+    const auto next = heap.next();
+    heap.pop();
+    EXPECT_EQ(heap.top(), next[0]);
+    for (std::size_t i = 1; i < next.size() && next[i] != IndexedHeap::kNone; ++i)
+      EXPECT_GE(heap.key(next[i]), heap.key(next[i - 1]));
+  }
+  EXPECT_EQ(heap.next()[0], IndexedHeap::kNone);
 }
 
 }  // namespace

@@ -2,9 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <map>
 #include <optional>
 #include <set>
 
+#include "base/random.h"
 #include "pm/shapes.h"
 
 namespace viewcell {
@@ -135,6 +138,79 @@ TEST(CollapseMesh, NoFaceTurnsOver) {
   CollapseMesh mesh(positions, triangles);
   EXPECT_EQ(mesh.check(0, 1, 0.2f), Refusal::flip);
   EXPECT_EQ(mesh.check(0, 4, 0.2f), Refusal::none);
+}
+
+// What the definitions say, from the list of triangles.
+struct Plain {
+  std::set<std::uint32_t> ring;
+  bool is_on_boundary = false;
+  Plain(const std::vector<Triangle>& triangles, std::uint32_t v) {
+    std::map<std::uint32_t, int> n_times;
+    for (const Triangle& t : triangles) {
+      if (std::find(t.begin(), t.end(), v) == t.end()) continue;
+      for (const std::uint32_t w : t)
+        if (w != v) ++n_times[w];
+    }
+    for (const auto& [w, n] : n_times) {
+      ring.insert(w);
+      is_on_boundary = is_on_boundary || n % 2 == 1;
+    }
+  }
+};
+
+// Triangles at random, as many as 40 at a vertex, some of them twice or turned round.
+TEST(CollapseMesh, RingsAndBoundariesOfAnySoup) {
+  for (std::uint64_t seed = 0; seed < 60; ++seed) {
+    SCOPED_TRACE(seed);
+    Random random(seed);
+    const std::uint32_t n = 5 + random.below(12);
+    const std::vector<glm::vec3> positions(n, glm::vec3(0));
+    std::vector<Triangle> triangles;
+    for (std::uint32_t i = 0; i < 6 + 4 * (seed % 9); ++i) {
+      const Triangle t{random.below(n), random.below(n), random.below(n)};
+      if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) continue;
+      triangles.push_back(t);
+      if (random.below(3) == 0) triangles.push_back({t[1], t[0], t[2]});
+      if (random.below(6) == 0) triangles.push_back(t);
+    }
+    CollapseMesh mesh(positions, triangles);
+    for (std::uint32_t v = 0; v < n; ++v) {
+      const Plain plain(triangles, v);
+      EXPECT_EQ(ring_of(mesh, v), plain.ring);
+      EXPECT_EQ(mesh.is_on_boundary(v), plain.is_on_boundary);
+    }
+  }
+}
+
+// Down to a few faces, which moves the lists of corners together several times.
+TEST(CollapseMesh, StarsAreThoseOfTheTrianglesAfterManyCollapses) {
+  const TriMesh sphere = make_noisy_sphere(3, 0.1, 4);
+  CollapseMesh mesh(sphere.positions, sphere.triangles);
+  Random random(5);
+  std::vector<std::uint32_t> ring;
+  int n_collapses = 0;
+  for (int attempt = 0; attempt < 20000 && mesh.n_triangles() > 8; ++attempt) {
+    const std::uint32_t u = random.below(static_cast<std::uint32_t>(mesh.n_vertices()));
+    if (!mesh.has_triangles(u)) continue;
+    mesh.ring(u, ring);
+    const std::uint32_t v = ring[random.below(static_cast<std::uint32_t>(ring.size()))];
+    if (mesh.check(u, v, kAnyTurn) != Refusal::none) continue;
+    mesh.collapse(u, v);
+    if (++n_collapses % 16 != 0) continue;
+    const std::vector<Triangle> triangles = mesh.triangles();
+    for (std::uint32_t w = 0; w < mesh.n_vertices(); ++w) {
+      std::size_t n_corners = 0;
+      mesh.for_each_corner(w, [&](std::uint32_t c) {
+        EXPECT_EQ(mesh.vertex_at(c), w);
+        ++n_corners;
+      });
+      std::size_t n_expected = 0;
+      for (const Triangle& t : triangles) n_expected += std::count(t.begin(), t.end(), w);
+      ASSERT_EQ(n_corners, n_expected);
+      ASSERT_EQ(ring_of(mesh, w), Plain(triangles, w).ring);
+    }
+  }
+  EXPECT_GT(n_collapses, 150);
 }
 
 TEST(CollapseMesh, NoNeedleIsMade) {
