@@ -11,7 +11,7 @@ ball 8 5 >ball.off  # 224 faces
 mkdir -p out/ball
 expect 0 env JOBS=2 TITLE="A ball" "$scripts/compare-metrics" ball.off 60 out/ball "exact=--metric qem3 --exact"
 # Every metric that needs no texture coordinates, and the one that was added.
-[ "$(sed -n '3,$p' out/ball/table.md | cut -d' ' -f2 | tr '\n' ' ')" = "qem3 qem3-full lt exact " ] ||
+[ "$(sed -n '3,$p' out/ball/table.md | cut -d' ' -f2 | tr '\n' ' ')" = "qem3 qem3-full mapping-full mapping-mean-full lt exact " ] ||
   fail "$(cat out/ball/table.md)"
 grep -q '^mapping: needs texture coordinates$' "$log/err" || fail "nothing says why mapping is left out"
 cmp -s out/ball/table.md "$log/out" || fail "the table is not on stdout"
@@ -23,7 +23,7 @@ awk -F, '
   n[$1] > 1 && ($2 >= faces || $3 < max / 2) { bad = 1 }
   { faces = $2; max = $3 }
   n[$1] == 3 && ($2 > 60 || $2 < 57) { bad = 1 }
-  END { for (m in n) { k++; if (n[m] != 3) bad = 1 } exit bad || k != 4 }' out/ball/curves.csv ||
+  END { for (m in n) { k++; if (n[m] != 3) bad = 1 } exit bad || k != 6 }' out/ball/curves.csv ||
   fail "$(cat out/ball/curves.csv)"
 for name in qem3 lt; do
   max=$(awk -F'|' -v m=" $name " '$2 == m { print $10 + 0 }' out/ball/table.md)
@@ -33,7 +33,7 @@ done
 # The histograms: the same bins for all, nearly all of the surface.
 awk -F, '
   NR > 1 { sum[$1] += $3; bins[$1] = bins[$1] " " $2 }
-  END { for (m in sum) { k++; if (sum[m] < 95 || sum[m] > 100.1 || bins[m] != bins["qem3"]) bad = 1 } exit bad || k != 4 }' \
+  END { for (m in sum) { k++; if (sum[m] < 95 || sum[m] > 100.1 || bins[m] != bins["qem3"]) bad = 1 } exit bad || k != 6 }' \
   out/ball/histogram.csv || fail "$(cat out/ball/histogram.csv)"
 grep -q '>A ball<' out/ball/curves.svg && grep -q '>A ball, 224 -&gt; 60 faces<' out/ball/histogram.svg || fail "titles"
 # Their mean is that of the table, from A to B, but for what lies beyond the last bin.
@@ -65,7 +65,7 @@ grep -q "none of the models is in ." "$log/err" || fail "$(cat "$log/err")"
 
 # Times: a line a metric, the best of the runs.
 expect 0 env RUNS=1 "$scripts/time-metrics" ball.off 60
-awk 'NF != 2 || $2 <= 0 { bad = 1 } END { exit bad || NR != 3 }' "$log/out" || fail "$(cat "$log/out")"
+awk 'NF != 2 || $2 <= 0 { bad = 1 } END { exit bad || NR != 5 }' "$log/out" || fail "$(cat "$log/out")"
 
 # Into a document: the parts that it names, once, and what else it says.
 cat >doc.md <<'MD'
