@@ -1,6 +1,7 @@
 // How far a collapse of any kind would take a mesh from its input.
 #pragma once
 
+#include <algorithm>
 #include <limits>
 #include <span>
 #include <utility>
@@ -24,7 +25,8 @@ class CollapseLook {
   /// Deviations::cost() of the collapse; infinite when it has no map.
   float look(std::uint32_t u, std::uint32_t v) {
     change_.clear();
-    if (!map_.lay(u, v)) return kNever;
+    is_mapped_ = map_.lay(u, v);
+    if (!is_mapped_) return kNever;
     deviations_.add(map_, change_);
     return deviations_.cost(change_);
   }
@@ -35,13 +37,13 @@ class CollapseLook {
     const float first = look_full(u, v, glm::dvec3(place));
     std::swap(change_, other_);
     const float second = look_full(v, u, glm::dvec3(place));
-    if (second < first) return second;
-    std::swap(change_, other_);
-    return first;
+    if (!(second < first)) std::swap(change_, other_);
+    is_mapped_ = std::min(first, second) < kNever;
+    return std::min(first, second);
   }
-  /// The collapse last looked at is made.
+  /// The collapse last looked at is made; without a map nothing is known any more.
   void take() {
-    deviations_.take(change_);
+    is_mapped_ ? deviations_.take(change_) : deviations_.lose();
     map_.forget();
   }
   const Deviations& deviations() const { return deviations_; }
@@ -61,6 +63,7 @@ class CollapseLook {
   CollapseMap map_;
   Deviations deviations_;
   typename Deviations::Change change_, other_;
+  bool is_mapped_ = true;  // the collapse last looked at
 };
 
 /// Costs are bounds of the distance of the points concerned, from the input and back.

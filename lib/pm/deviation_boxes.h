@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "pm/collapse_map.h"
@@ -32,6 +33,8 @@ class DeviationBoxes {
   /// Of u's own deviation after the map's last place(); that of the whole map is not below it.
   float least_reach(const CollapseMap& map) const;
   void take(const Change& change);
+  /// A part of the input has nothing that it is matched with: bound() is infinite from now on.
+  void lose() { bound_ = std::numeric_limits<float>::infinity(); }
   /// Of a face: its points are as far from the input at most.
   float reach(std::uint32_t face) const { return std::sqrt(boxes_[face].reach2()); }
   /// No point of the mesh, nor of the input, is farther than this from the other surface.

@@ -39,6 +39,7 @@ class DeviationMoments {
   /// The root of what the change adds to the mean square over the whole input; not below 0.
   float cost(const Change& change) const;
   void take(const Change& change);
+  void lose() {}  ///< a part of the input has nothing that it is matched with
 
  private:
   struct Local {  // of a face of the map

@@ -1,6 +1,8 @@
 // A metric for the loop that builds progressive meshes.
 #pragma once
 
+#include <cmath>
+
 #include "pm/collapse_look.h"
 #include "pm/collapse_loop.h"
 #include "pm/nearest.h"
@@ -46,12 +48,25 @@ struct RecordedMetric {
   }
   Refusal allows(const CollapseMesh&, std::uint32_t u, std::uint32_t v) {
     if (!recorder.match(mesh, u, v)) return Refusal::chart;
+    if (kPlaces && is_astray(u, v)) return Refusal::metric;
     merge(u, v);
     if (refuse_folds && recorder.folds(mesh, u, v)) return Refusal::fold;
     const Refusal refusal = metric_allows(u, v);
     if (refusal != Refusal::none || !guard) return refusal;
     const float reach = kPlaces ? guard->look(u, v, last_place) : guard->look(u, v);
     return reach <= error_bound ? Refusal::none : Refusal::bound;
+  }
+  /// Whether the place is off the box around both stars by more than a quarter of its diagonal:
+  /// what is nearly flat or nearly balanced may be least far away from the surface.
+  bool is_astray(std::uint32_t u, std::uint32_t v) const {
+    Box box;
+    for (const std::uint32_t w : {u, v})
+      mesh.for_each_triangle(w, [&](std::uint32_t a, std::uint32_t b) {
+        box.add(mesh.position(a)), box.add(mesh.position(b));
+      });
+    const glm::dvec3 off =
+        glm::max(box.lo - glm::dvec3(last_place), glm::dvec3(last_place) - box.hi);
+    return std::max({off.x, off.y, off.z}) > 0.25 * glm::length(box.size());
   }
   void merge(std::uint32_t u, std::uint32_t v) {
     if constexpr (requires { metric.texcoord(); })
@@ -66,9 +81,10 @@ struct RecordedMetric {
   }
   /// A bound of the distance from the input so far; below 0: not known.
   float error() const {
-    if (guard) return guard->deviations().bound();
-    if constexpr (requires { metric.bound(); }) return metric.bound();
-    return -1;
+    float bound = -1;
+    if constexpr (requires { metric.bound(); }) bound = metric.bound();
+    if (guard) bound = guard->deviations().bound();
+    return std::isfinite(bound) ? bound : -1;
   }
   void traced(std::uint32_t u, std::uint32_t v, const CollapseTrace& trace) {
     if constexpr (requires { metric.traced(u, v, trace); }) metric.traced(u, v, trace);

@@ -135,6 +135,37 @@ TEST(CollapseBound, SplitVerticesDoNotCutIt) {
   EXPECT_LT(pm.error(), 1e-5f);
 }
 
+// A face on its own that vanishes leaves nothing to be measured from: no level from there on claims
+// a bound, and with a bound it stays.
+TEST(CollapseBound, NothingIsClaimedOnceAPartIsGone) {
+  for (const Placement placement : {Placement::half, Placement::full}) {
+    TriMesh mesh = make_noisy_sphere(2, 0.1, 1);
+    const auto n = static_cast<std::uint32_t>(mesh.positions.size());
+    for (const float x : {0.0f, 1e-3f, 2e-3f}) mesh.positions.emplace_back(9 + x, x * x, 0);
+    mesh.triangles.push_back({n, n + 1, n + 2});
+    BuildOptions options;
+    options.placement = placement;
+    options.min_cosine = -1;
+    options.track_error = true;
+    ProgressiveMesh pm(build_progressive_mesh(mesh, options).record);
+    bool is_gone = false;
+    for (pm.set_level(pm.n_splits()); pm.level() > 0; pm.coarsen()) {
+      const double measured = measure_max(mesh, pm.extract());
+      is_gone = is_gone || measured > 5;
+      if (is_gone) {
+        EXPECT_LT(pm.error(), 0) << pm.level();
+      } else if (pm.error() >= 0) {
+        EXPECT_LE(measured, pm.error() * (1 + 1e-6) + 1e-9) << pm.level();
+      }
+    }
+    EXPECT_TRUE(is_gone);
+    options.error_bound = 0.5f;
+    ProgressiveMesh kept(build_progressive_mesh(mesh, options).record);
+    EXPECT_LE(measure_max(mesh, kept.extract()), 0.5);
+    EXPECT_GE(kept.error(), 0);
+  }
+}
+
 TEST(CollapseBound, ABoundIsKept) {
   const TriMesh sphere = make_noisy_sphere(4, 0.02, 3);
   BuildOptions options;

@@ -261,6 +261,27 @@ TEST(ProgressiveMesh, LindstromTurkKeepsTheVolume) {
   }
 }
 
+// Places are least somewhere far away where a surface is nearly flat or nearly balanced; they are
+// not gone to.
+TEST(ProgressiveMesh, NoVertexGoesAstray) {
+  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+    SCOPED_TRACE(seed);
+    const TriMesh mesh = seed % 2 ? make_relief(seed) : make_noisy_sphere(2, 0.5, seed);
+    Box box;
+    for (const glm::vec3& p : mesh.positions) box.add(p);
+    BuildOptions options;
+    options.placement = Placement::full;
+    options.metric = seed % 4 < 2 ? MetricKind::lt : MetricKind::qem3;
+    options.min_cosine = -1;
+    const ProgressiveRecord record = build_progressive_mesh(mesh, options).record;
+    const double slack = 0.5 * glm::length(box.size());
+    for (const glm::vec3& p : record.attributes.positions) {
+      const glm::dvec3 off = glm::max(box.lo - glm::dvec3(p), glm::dvec3(p) - box.hi);
+      EXPECT_LT(std::max({off.x, off.y, off.z}), slack);
+    }
+  }
+}
+
 TEST(ProgressiveMesh, LazyCostsAreFewer) {
   const TriMesh sphere = make_noisy_sphere(4, 0.05, 11);
   for (const Way& way : kWays) {
