@@ -165,16 +165,17 @@ LindstromTurkMetric::Sums LindstromTurkMetric::sum_triangles(std::uint32_t u, st
 void LindstromTurkMetric::gather_boundary(std::uint32_t u, std::uint32_t v, Sums& sums) {
   for (const std::uint32_t w : {u, v}) {
     edges_.clear();
+    others_.clear();
     mesh_.for_each_triangle(w, [&](std::uint32_t a, std::uint32_t b) {
       edges_.push_back({w, a});
       edges_.push_back({b, w});
+      others_.insert(others_.end(), {a, b});
     });
+    std::sort(others_.begin(), others_.end());
     for (const Edge& edge : edges_) {
       const std::uint32_t other = edge.a == w ? edge.b : edge.a;
-      const auto n_uses = std::count_if(edges_.begin(), edges_.end(), [&](const Edge& e) {
-        return (e.a == w ? e.b : e.a) == other;
-      });
-      if (n_uses != 1 || (w == v && other == u)) continue;
+      const auto uses = std::equal_range(others_.begin(), others_.end(), other);
+      if (uses.second - uses.first != 1 || (w == v && other == u)) continue;
       const glm::dvec3 a = between(u, edge.a), b = between(u, edge.b);
       sums.has_boundary = true;
       sums.along += b - a;

@@ -108,7 +108,8 @@ class LindstromTurkMetric {
   struct Edge {
     std::uint32_t a, b;
   };
-  std::vector<Edge> edges_;  // scratch
+  std::vector<Edge> edges_;            // scratch
+  std::vector<std::uint32_t> others_;  // their other ends, in order
 };
 
 }  // namespace viewcell
