@@ -19,7 +19,7 @@ class CollapseLook {
   /// Keeps references.
   CollapseLook(const CollapseMesh& mesh, const WedgeTable& wedges,
                std::span<const glm::vec3> positions, Deviations deviations)
-      : map_(mesh, wedges, positions, {}, Matching::nearest, Deviations::kMoments),
+      : map_(mesh, wedges, positions, {}, Matching::nearest, {.moments = Deviations::kMoments}),
         deviations_(std::move(deviations)) {}
 
   /// Deviations::cost() of the collapse; infinite when it has no map.

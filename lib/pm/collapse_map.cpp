@@ -17,6 +17,17 @@ double cross2(const glm::dvec2& a, const glm::dvec2& b) {
   return a.x * b.y - a.y * b.x;
 }
 
+// Weights of a point of a triangle, not below 0; of one corner where the triangle has no area.
+glm::dvec3 barycentric(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3& b,
+                       const glm::dvec3& c) {
+  const glm::dvec3 n = glm::cross(b - a, c - a);
+  glm::dvec3 w(glm::dot(n, glm::cross(b - p, c - p)), glm::dot(n, glm::cross(c - p, a - p)),
+               glm::dot(n, glm::cross(a - p, b - p)));
+  w = glm::max(w, glm::dvec3(0));
+  const double sum = w.x + w.y + w.z;
+  return sum > 0 ? w / sum : glm::dvec3(1, 0, 0);
+}
+
 bool is_finite(const glm::dvec3& p) {
   return std::isfinite(p.x + p.y + p.z);
 }
@@ -73,7 +84,7 @@ bool CollapseMap::place_sector(const Sector& sector, std::uint32_t v, Place& pla
 
 // New faces are (v, rim[j], rim[j + 1]) for j in [1, size - 2], open or closed.
 bool CollapseMap::choose_face(const Sector& sector, Place& place) const {
-  place.after = glm::dvec3(kInfinity);
+  place.after = {glm::dvec3(kInfinity)};
   if (!sector.is_closed)
     choose_on_edge(sector, place);
   else if (matching_ == Matching::texture)
@@ -81,7 +92,7 @@ bool CollapseMap::choose_face(const Sector& sector, Place& place) const {
   else
     choose_by_distance(sector, place);
   place.face = Walk{sector, place.v, place.step}.face(place.middle);
-  return is_finite(place.after);
+  return is_finite(place.after.at);
 }
 
 void CollapseMap::choose_on_edge(const Sector& sector, Place& place) const {
@@ -97,7 +108,7 @@ void CollapseMap::choose_on_edge(const Sector& sector, Place& place) const {
   } else {
     t = closest_on_segment(glm::dvec3(0), place.apex, far.to);
   }
-  place.after = glm::mix(place.apex, far.to, t);
+  place.after = {glm::mix(place.apex, far.to, t), glm::mix(v.uv, far.uv, t)};
 }
 
 // The new face that u's texture coordinates lie in, or the one that they are least outside of.
@@ -117,7 +128,8 @@ void CollapseMap::choose_by_texture(const Sector& sector, Place& place) const {
     place.middle = j;
     w = glm::max(w, glm::dvec3(0));
     w /= w.x + w.y + w.z;
-    place.after = w.x * place.apex + w.y * b.to + w.z * c.to;
+    place.after = {w.x * place.apex + w.y * b.to + w.z * c.to,
+                   w.x * v.uv + w.y * b.uv + w.z * c.uv};
   }
 }
 
@@ -131,7 +143,12 @@ void CollapseMap::choose_by_distance(const Sector& sector, Place& place) const {
     if (!(distance2 < best)) continue;
     best = distance2;
     place.middle = j;
-    place.after = p;
+    place.after.at = p;
+  }
+  if (overlay_.keeps_texture() && best < kInfinity) {
+    const CollapseStar::Rim &v = rim[0], &b = rim[place.middle], &c = rim[place.middle + 1];
+    const glm::dvec3 w = barycentric(place.after.at, place.apex, b.to, c.to);
+    place.after.texture = w.x * v.uv + w.y * b.uv + w.z * c.uv;
   }
 }
 
@@ -168,12 +185,13 @@ bool CollapseMap::lay_last(std::uint32_t v) {
 void CollapseMap::lay_sector(const Sector& sector, const Place& place) {
   const Walk rim{sector, place.v, place.step};
   const std::size_t n = sector.rim.size(), m = place.middle;
-  overlay_.start(place.apex, rim[0].uv);
-  overlay_.add_ray(place.apex, rim[0].uv, rim.face(0));
-  for (std::size_t i = 1; i < n; ++i) overlay_.add_ray(rim[i].to, rim[i].uv, rim.face(i));
+  const FanPoint apex{place.apex, rim[0].uv};
+  overlay_.start(apex);
+  overlay_.add_ray(apex, rim.face(0));
+  for (std::size_t i = 1; i < n; ++i) overlay_.add_ray({rim[i].to, rim[i].uv}, rim.face(i));
   overlay_.add_old_apex(m, place.after);
-  overlay_.add_side(0, true, m, place.apex, place.after);
-  if (sector.is_closed) overlay_.add_side(n, false, n - 1 - m, place.apex, place.after);
+  overlay_.add_side(0, true, m, apex, place.after);
+  if (sector.is_closed) overlay_.add_side(n, false, n - 1 - m, apex, place.after);
 }
 
 // A lone triangle, of which an edge remains: some face there takes it.
@@ -189,9 +207,10 @@ bool CollapseMap::lay_lone(const Sector& sector, const Place& place, std::uint32
   });
   if (!found) return false;
   const std::uint32_t to = star_.place_of(heir);
-  overlay_.start(place.apex, rim[0].uv);
-  overlay_.add_ray(place.apex, rim[0].uv, rim.face(0));
-  overlay_.add_ray(rim[1].to, rim[1].uv, rim.face(0));
+  const FanPoint apex{place.apex, rim[0].uv};
+  overlay_.start(apex);
+  overlay_.add_ray(apex, rim.face(0));
+  overlay_.add_ray({rim[1].to, rim[1].uv}, rim.face(0));
   overlay_.add_lone(to, place.after);
   return true;
 }
@@ -226,15 +245,14 @@ bool CollapseMap::move_closed(const Sector& sector, const glm::dvec3& apex) {
   const std::size_t k = find(apex, glm::dvec3(0), n, before);
   const std::size_t face = find(glm::dvec3(0), apex, k, after);
   if (k == n || face == n) return false;
-  overlay_.start(apex, {});
-  for (std::size_t i = 0; i <= n; ++i)
-    overlay_.add_ray(at(k + i), {}, sector.rim[(k + i) % n].face);
-  overlay_.add_ray(at(k + 1), {}, 0);
+  overlay_.start({apex});
+  for (std::size_t i = 0; i <= n; ++i) overlay_.add_ray({at(k + i)}, sector.rim[(k + i) % n].face);
+  overlay_.add_ray({at(k + 1)}, 0);
   const std::size_t m = (face + n - k) % n;
-  overlay_.add_old_apex(m, after);
-  overlay_.add_new_apex(0, before);
-  overlay_.add_side(0, true, m, before, after);
-  overlay_.add_side(n + 1, false, n - m, before, after);
+  overlay_.add_old_apex(m, {after});
+  overlay_.add_new_apex(0, {before});
+  overlay_.add_side(0, true, m, {before}, {after});
+  overlay_.add_side(n + 1, false, n - m, {before}, {after});
   return true;
 }
 
@@ -250,15 +268,15 @@ bool CollapseMap::move_open(const Sector& sector, const glm::dvec3& apex) {
   const Walk rim{sector, is_first ? 0 : n - 1, is_first ? 1 : -1};
   const glm::dvec3 before = is_first ? first : last, far = rim[n - 1].to;
   const glm::dvec3 after = glm::mix(apex, far, closest_on_segment(glm::dvec3(0), apex, far));
-  overlay_.start(apex, {});
-  for (std::size_t i = 0; i < n; ++i) overlay_.add_ray(rim[i].to, {}, i + 1 < n ? rim.face(i) : 0);
+  overlay_.start({apex});
+  for (std::size_t i = 0; i < n; ++i) overlay_.add_ray({rim[i].to}, i + 1 < n ? rim.face(i) : 0);
   if (n == 2) {  // one face before and after
-    overlay_.add_old_apex(0, apex);
+    overlay_.add_old_apex(0, {apex});
     return true;
   }
-  overlay_.add_old_apex(n - 2, after);
-  overlay_.add_new_apex(0, before);
-  overlay_.add_side(0, true, n - 2, before, after);
+  overlay_.add_old_apex(n - 2, {after});
+  overlay_.add_new_apex(0, {before});
+  overlay_.add_side(0, true, n - 2, {before}, {after});
   return true;
 }
 

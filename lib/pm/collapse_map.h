@@ -31,15 +31,15 @@ namespace viewcell {
 /// then u collapses into v there, by lay() with that place.
 class CollapseMap {
  public:
-  /// Keeps references. with_moments: moments() are made. Not thread-safe.
+  /// Keeps references. keep: what is made of cells. Not thread-safe.
   CollapseMap(const CollapseMesh& mesh, const WedgeTable& wedges,
               std::span<const glm::vec3> positions, std::span<const glm::vec2> texcoords,
-              Matching matching, bool with_moments)
+              Matching matching, const FanOverlay::Keep& keep = {})
       : mesh_(mesh),
         positions_(positions),
         star_(mesh, wedges, positions, texcoords),
         matching_(matching),
-        overlay_(matching, with_moments) {}
+        overlay_(matching, keep) {}
 
   /// Finds where u goes. False when there is no map: the star of u is no fan, v is not at its
   /// boundary's end, or a part of the surface has no face to go to.
@@ -57,7 +57,7 @@ class CollapseMap {
   /// face that takes u in it (a place in faces()) and how far u is from there.
   template <typename Visit>
   void for_each_place(Visit&& visit) const {
-    for (const Place& p : last_) visit(p.face, -make_double4(p.after));
+    for (const Place& p : last_) visit(p.face, -make_double4(p.after.at));
   }
   /// The faces of u, by their numbers in the mesh, and those that take over from lone triangles.
   std::span<const std::uint32_t> faces() const { return star_.faces(); }
@@ -72,7 +72,8 @@ class CollapseMap {
     int step = 1;       // the way that the sector is walked from v
     std::size_t middle = 0;
     std::uint32_t face = 0;
-    glm::dvec3 apex{0}, after{0};  // v, and u's new place, relative to u
+    glm::dvec3 apex{0};  // v, relative to u
+    FanPoint after;      // u's new place
   };
   struct Placed {  // the places of all sectors for one target
     std::uint32_t v;

@@ -24,38 +24,51 @@ double FanOverlay::largest_shift() const {
 void FanOverlay::clear() {
   cells_.clear();
   moments_.clear();
+  textures_.clear();
   largest2_ = 0;
 }
 
-void FanOverlay::start(const glm::dvec3& new_apex, const glm::dvec2& texture) {
-  apex_ = make_double4(new_apex);
-  apex_texture_ = texture;
+void FanOverlay::start(const FanPoint& new_apex) {
+  apex_ = make_double4(new_apex.at);
+  apex_texture_ = new_apex.texture;
   rays_.clear();
 }
 
-void FanOverlay::add_ray(const glm::dvec3& place, const glm::dvec2& texture, std::uint32_t face) {
-  const Double4 to = make_double4(place), from_apex = to - apex_;
+void FanOverlay::add_ray(const FanPoint& place, std::uint32_t face) {
+  const Double4 to = make_double4(place.at), from_apex = to - apex_;
   rays_.push_back({to, from_apex, dot(to, to), dot(from_apex, from_apex), dot(to, apex_),
-                   dot(from_apex, apex_), texture, face});
+                   dot(from_apex, apex_), place.texture, face});
 }
 
-void FanOverlay::add_old_apex(std::size_t ray, const glm::dvec3& after) {
-  add_apex(ray, rays_[ray].face, Corner{-make_double4(after), {}});
+FanOverlay::Corner FanOverlay::old_apex(const FanPoint& after) const {
+  return {-make_double4(after.at), Double4{}, glm::dvec2(0), after.texture};
 }
 
-void FanOverlay::add_new_apex(std::size_t ray, const glm::dvec3& before) {
-  const Double4 place = make_double4(before);
-  add_apex(ray, rays_[ray].face, Corner{place - apex_, place});
+FanOverlay::Corner FanOverlay::new_apex(const FanPoint& before) const {
+  const Double4 place = make_double4(before.at);
+  return {place - apex_, place, before.texture, apex_texture_};
 }
 
-void FanOverlay::add_lone(std::uint32_t heir, const glm::dvec3& after) {
-  add_apex(0, heir, Corner{-make_double4(after), {}});
+FanOverlay::Corner FanOverlay::on_rim(const Ray& ray) const {
+  return {Double4{}, ray.to, ray.texture, ray.texture};
+}
+
+void FanOverlay::add_old_apex(std::size_t ray, const FanPoint& after) {
+  add_apex(ray, rays_[ray].face, old_apex(after));
+}
+
+void FanOverlay::add_new_apex(std::size_t ray, const FanPoint& before) {
+  add_apex(ray, rays_[ray].face, new_apex(before));
+}
+
+void FanOverlay::add_lone(std::uint32_t heir, const FanPoint& after) {
+  add_apex(0, heir, old_apex(after));
   cells_.push_back({heir, heir});
-  if (with_moments_) moments_.emplace_back();
+  if (keep_.moments) moments_.emplace_back();
 }
 
 void FanOverlay::add_apex(std::size_t ray, std::uint32_t new_face, const Corner& apex) {
-  const Corner left{{}, rays_[ray].to}, right{{}, rays_[ray + 1].to};
+  const Corner left = on_rim(rays_[ray]), right = on_rim(rays_[ray + 1]);
   largest2_ = std::max(largest2_, dot(apex.shift, apex.shift));
   add_cell(rays_[ray].face, new_face, {apex, left, right, right});
 }
@@ -78,25 +91,26 @@ FanOverlay::Corner FanOverlay::cross(const Ray& old_edge, const Ray& new_edge) {
   }
   const Double4 before = s * old_edge.to, shift = before - apex_ - t * new_edge.from_apex;
   largest2_ = std::max(largest2_, dot(shift, shift));
-  return {shift, before};
+  if (!keep_.texture) return {shift, before};
+  return {shift, before, s * old_edge.texture,
+          apex_texture_ + t * (new_edge.texture - apex_texture_)};
 }
 
 void FanOverlay::add_side(std::size_t first, bool is_forward, std::size_t middle,
-                          const glm::dvec3& before, const glm::dvec3& after) {
+                          const FanPoint& before, const FanPoint& after) {
   const auto ray = [&](std::size_t i) -> const Ray& {
     return rays_[is_forward ? first + i : first - i];
   };
   const auto face = [&](std::size_t i) {
     return rays_[is_forward ? first + i : first - i - 1].face;
   };
-  const Double4 place = make_double4(before);
   const std::size_t beyond = middle + 1;
-  row_.assign(beyond + 1, Corner{place - apex_, place});
+  row_.assign(beyond + 1, new_apex(before));
   next_row_.resize(beyond + 1);
   for (std::size_t i = 0; i < middle; ++i) {
-    next_row_[i + 1] = Corner{{}, ray(i + 1).to};
+    next_row_[i + 1] = on_rim(ray(i + 1));
     for (std::size_t j = i + 2; j < beyond; ++j) next_row_[j] = cross(ray(i + 1), ray(j));
-    next_row_[beyond] = Corner{-make_double4(after), {}};
+    next_row_[beyond] = old_apex(after);
     for (std::size_t j = std::max<std::size_t>(i, 1); j <= middle; ++j) {
       const Corner& last = j > i ? next_row_[j] : next_row_[j + 1];
       add_cell(face(i), face(j), {row_[j], row_[j + 1], next_row_[j + 1], last});
@@ -115,7 +129,10 @@ void FanOverlay::add_cell(std::uint32_t old_face, std::uint32_t new_face, const 
   const Float4 l = __builtin_convertvector(lo, Float4), h = __builtin_convertvector(hi, Float4);
   const Float4 far = h > -l ? h : -l;  // the larger absolute value
   cells_.push_back({old_face, new_face, {l - kOutward * far, h + kOutward * far}});
-  if (with_moments_) add_moments(around);
+  if (keep_.moments) add_moments(around);
+  if (keep_.texture)
+    textures_.push_back({{a.old_texture, b.old_texture, c.old_texture, d.old_texture},
+                         {a.new_texture, b.new_texture, c.new_texture, d.new_texture}});
 }
 
 void FanOverlay::add_moments(const Around& around) {

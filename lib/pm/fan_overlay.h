@@ -1,6 +1,7 @@
 // The overlay of two fans of triangles over one polygon, with other apexes, as cells.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <vector>
@@ -28,43 +29,62 @@ struct CellMoments {
   double square = 0;   ///< mean squared length of the shift
 };
 
+/// The corners of a cell in the texture, of its part of the old and of the new face; of a triangle
+/// the last two are the same.
+struct CellTexture {
+  std::array<glm::dvec2, 4> before, after;
+};
+
+/// A point relative to the old fan's apex, in space and in the texture.
+struct FanPoint {
+  glm::dvec3 at{0};
+  glm::dvec2 texture{0};
+};
+
 /// The old fan's apex is the origin. Each corner of a cell has a point on the old and one on the
 /// new surface.
 class FanOverlay {
  public:
-  FanOverlay(Matching matching, bool with_moments)
-      : matching_(matching), with_moments_(with_moments) {}
+  /// What is made of cells beside what MapCell has.
+  struct Keep {
+    bool moments = false, texture = false;
+  };
+  FanOverlay(Matching matching, const Keep& keep) : matching_(matching), keep_(keep) {}
+
+  bool keeps_texture() const { return keep_.texture; }
 
   /// Forgets all cells.
   void clear();
-  /// A new pair of fans; texture: of the new apex.
-  void start(const glm::dvec3& new_apex, const glm::dvec2& texture);
+  /// A new pair of fans.
+  void start(const FanPoint& new_apex);
   /// The next place of the polygon, and the number of the faces from there on.
-  void add_ray(const glm::dvec3& to, const glm::dvec2& texture, std::uint32_t face);
+  void add_ray(const FanPoint& place, std::uint32_t face);
   /// The cell around the old apex: its place on the new surface is `after`, in the new face between
   /// ray and ray + 1.
-  void add_old_apex(std::size_t ray, const glm::dvec3& after);
+  void add_old_apex(std::size_t ray, const FanPoint& after);
   /// The cell around the new apex, whose place on the old surface is `before`.
-  void add_new_apex(std::size_t ray, const glm::dvec3& before);
+  void add_new_apex(std::size_t ray, const FanPoint& before);
   /// The cells on one side, from the new apex to the old one. The polygon's places are counted from
   /// `first`, forwards or backwards. Old edges i = 1 ... middle make rows of corners with new edges
   /// j > i; before the rows is the new apex, beyond the middle the old one. Old face i lies between
   /// rows i and i + 1, new face j between columns j and j + 1.
-  void add_side(std::size_t first, bool is_forward, std::size_t middle, const glm::dvec3& before,
-                const glm::dvec3& after);
+  void add_side(std::size_t first, bool is_forward, std::size_t middle, const FanPoint& before,
+                const FanPoint& after);
   /// The face between rays 0 and 1 vanishes: its apex goes to `after`, on the edge that is left,
   /// and `heir` takes it, itself unchanged.
-  void add_lone(std::uint32_t heir, const glm::dvec3& after);
+  void add_lone(std::uint32_t heir, const FanPoint& after);
 
   const std::vector<MapCell>& cells() const { return cells_; }
-  /// Beside the cells, if asked for.
+  /// Beside the cells, if asked for. The unchanged heir of a lone face has no texture.
   const std::vector<CellMoments>& moments() const { return moments_; }
+  const std::vector<CellTexture>& textures() const { return textures_; }
   /// The longest distance of a corner's two points.
   double largest_shift() const;
 
  private:
   struct Corner {
     Double4 shift{}, before{};  // old minus new point, and the old one
+    glm::dvec2 old_texture{0}, new_texture{0};
   };
   struct Around {  // of a cell; of a triangle, c and d are the same
     const Corner &a, &b, &c, &d;
@@ -77,14 +97,18 @@ class FanOverlay {
     std::uint32_t face;
   };
   Corner cross(const Ray& old_edge, const Ray& new_edge);
+  Corner old_apex(const FanPoint& after) const;
+  Corner new_apex(const FanPoint& before) const;
+  Corner on_rim(const Ray& ray) const;
   void add_apex(std::size_t ray, std::uint32_t new_face, const Corner& apex);
   void add_cell(std::uint32_t old_face, std::uint32_t new_face, const Around& around);
   void add_moments(const Around& around);
 
   Matching matching_;
-  bool with_moments_;
+  Keep keep_;
   std::vector<MapCell> cells_;
   std::vector<CellMoments> moments_;
+  std::vector<CellTexture> textures_;
   double largest2_ = 0;
   Double4 apex_{};
   glm::dvec2 apex_texture_{0};

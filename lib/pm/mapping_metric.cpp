@@ -9,7 +9,8 @@ MappingMetric::MappingMetric(const CollapseMesh& mesh, const WedgeTable& wedges,
                              std::span<const glm::vec2> texcoords,
                              std::span<const Triangle> triangles, const MappingOptions& options)
     : options_(options),
-      map_(mesh, wedges, positions, texcoords, options.matching, options.measure == Measure::mean),
+      map_(mesh, wedges, positions, texcoords, options.matching,
+           {.moments = options.measure == Measure::mean}),
       boxes_(is_bound() ? triangles.size() : 0),
       moments_(positions,
                options.measure == Measure::mean ? triangles : std::span<const Triangle>()) {}

@@ -125,8 +125,7 @@ TEST(CollapseLook, ForgetsTheMeshBefore) {
       std::vector<std::uint32_t> around;
       parts.mesh.ring(ring[0], around);
       for (const std::uint32_t w : around) {
-        CollapseMap fresh(parts.mesh, parts.table, parts.wedges.positions, {}, Matching::nearest,
-                          false);
+        CollapseMap fresh(parts.mesh, parts.table, parts.wedges.positions, {}, Matching::nearest);
         EXPECT_EQ(kept.look(ring[0], w) < 1e30f, fresh.lay(ring[0], w));
       }
     }

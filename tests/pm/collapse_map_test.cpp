@@ -19,7 +19,7 @@ TEST(CollapseMap, ALoneTriangleHasAnHeir) {
     mesh.triangles = is_first ? std::vector{lone, other} : std::vector{other, lone};
     const std::uint32_t heir = is_first ? 1 : 0;
     Parts parts(mesh);
-    CollapseMap map(parts.mesh, parts.table, parts.wedges.positions, {}, Matching::nearest, false);
+    CollapseMap map(parts.mesh, parts.table, parts.wedges.positions, {}, Matching::nearest);
     DeviationBoxes boxes(2);
     const VectorBox had{Float4{0, 0, -3, 0}, Float4{0, 0, 2, 0}};
     boxes.take({{heir, had}});
@@ -50,7 +50,8 @@ TEST(CollapseMap, MovedCellsCoverTheStar) {
     const bool is_open = seed % 3 == 0;
     if (is_open) fan.triangles.pop_back(), fan.texcoords.resize(3 * fan.triangles.size());
     Parts parts(fan);
-    CollapseMap map(parts.mesh, parts.table, parts.wedges.positions, {}, Matching::nearest, true);
+    CollapseMap map(parts.mesh, parts.table, parts.wedges.positions, {}, Matching::nearest,
+                    {.moments = true});
     const double angle = random.uniform(0, 6.28), radius = random.uniform(0, 0.35);
     const glm::dvec3 to =
         glm::dvec3(fan.positions[0]) + radius * glm::dvec3(std::cos(angle), std::sin(angle), 0);
@@ -77,7 +78,7 @@ TEST(CollapseMap, CellsCoverTheStar) {
     const std::uint32_t v = 1 + random.below(static_cast<std::uint32_t>(fan.positions.size() - 1));
     Parts parts(fan);
     CollapseMap map(parts.mesh, parts.table, parts.wedges.positions, parts.wedges.texcoords,
-                    Matching::texture, true);
+                    Matching::texture, {.moments = true});
     ASSERT_TRUE(map.lay(0, v));
     if (parts.turns_over(0, v)) continue;
     std::vector<double> covered(fan.triangles.size(), 0);
