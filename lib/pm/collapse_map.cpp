@@ -186,7 +186,7 @@ void CollapseMap::lay_sector(const Sector& sector, const Place& place) {
   const Walk rim{sector, place.v, place.step};
   const std::size_t n = sector.rim.size(), m = place.middle;
   const FanPoint apex{place.apex, rim[0].uv};
-  overlay_.start(apex);
+  overlay_.start(apex, sector.origin, place.step < 0);
   overlay_.add_ray(apex, rim.face(0));
   for (std::size_t i = 1; i < n; ++i) overlay_.add_ray({rim[i].to, rim[i].uv}, rim.face(i));
   overlay_.add_old_apex(m, place.after);
@@ -208,7 +208,7 @@ bool CollapseMap::lay_lone(const Sector& sector, const Place& place, std::uint32
   if (!found) return false;
   const std::uint32_t to = star_.place_of(heir);
   const FanPoint apex{place.apex, rim[0].uv};
-  overlay_.start(apex);
+  overlay_.start(apex, sector.origin, place.step < 0);
   overlay_.add_ray(apex, rim.face(0));
   overlay_.add_ray({rim[1].to, rim[1].uv}, rim.face(0));
   overlay_.add_lone(to, place.after);

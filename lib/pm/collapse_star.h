@@ -26,6 +26,7 @@ class CollapseStar {
   struct Sector {
     std::span<const Rim> rim;
     bool is_closed = false;
+    glm::dvec2 origin{0};  ///< u in the texture
   };
 
   /// Keeps references. texcoords: of wedges; empty: charts do not matter.

@@ -28,9 +28,11 @@ void FanOverlay::clear() {
   largest2_ = 0;
 }
 
-void FanOverlay::start(const FanPoint& new_apex) {
+void FanOverlay::start(const FanPoint& new_apex, const glm::dvec2& origin, bool is_backward) {
   apex_ = make_double4(new_apex.at);
   apex_texture_ = new_apex.texture;
+  origin_ = origin;
+  is_backward_ = is_mirrored_ = is_backward;
   rays_.clear();
 }
 
@@ -105,6 +107,7 @@ void FanOverlay::add_side(std::size_t first, bool is_forward, std::size_t middle
     return rays_[is_forward ? first + i : first - i - 1].face;
   };
   const std::size_t beyond = middle + 1;
+  is_mirrored_ = is_backward_ != is_forward;
   row_.assign(beyond + 1, new_apex(before));
   next_row_.resize(beyond + 1);
   for (std::size_t i = 0; i < middle; ++i) {
@@ -117,6 +120,7 @@ void FanOverlay::add_side(std::size_t first, bool is_forward, std::size_t middle
     }
     std::swap(row_, next_row_);
   }
+  is_mirrored_ = is_backward_;
 }
 
 void FanOverlay::add_cell(std::uint32_t old_face, std::uint32_t new_face, const Around& around) {
@@ -130,9 +134,14 @@ void FanOverlay::add_cell(std::uint32_t old_face, std::uint32_t new_face, const 
   const Float4 far = h > -l ? h : -l;  // the larger absolute value
   cells_.push_back({old_face, new_face, {l - kOutward * far, h + kOutward * far}});
   if (keep_.moments) add_moments(around);
-  if (keep_.texture)
-    textures_.push_back({{a.old_texture, b.old_texture, c.old_texture, d.old_texture},
-                         {a.new_texture, b.new_texture, c.new_texture, d.new_texture}});
+  if (!keep_.texture) return;
+  CellTexture& texture = textures_.emplace_back();
+  std::array<const Corner*, 4> corners{&a, &b, &c, &d};
+  if (is_mirrored_) std::swap(corners[1], corners[3]);
+  for (std::size_t i = 0; i < 4; ++i) {
+    texture.before[i] = origin_ + corners[i]->old_texture;
+    texture.after[i] = origin_ + corners[i]->new_texture;
+  }
 }
 
 void FanOverlay::add_moments(const Around& around) {

@@ -29,8 +29,8 @@ struct CellMoments {
   double square = 0;   ///< mean squared length of the shift
 };
 
-/// The corners of a cell in the texture, of its part of the old and of the new face; of a triangle
-/// the last two are the same.
+/// The corners of a cell in the texture, of its part of the old and of the new face, in the winding
+/// of the faces; of a triangle two neighbours are the same.
 struct CellTexture {
   std::array<glm::dvec2, 4> before, after;
 };
@@ -55,8 +55,9 @@ class FanOverlay {
 
   /// Forgets all cells.
   void clear();
-  /// A new pair of fans.
-  void start(const FanPoint& new_apex);
+  /// A new pair of fans; origin: the old apex' texture coordinates; is_backward: rays come against
+  /// the winding of the faces.
+  void start(const FanPoint& new_apex, const glm::dvec2& origin = {0, 0}, bool is_backward = false);
   /// The next place of the polygon, and the number of the faces from there on.
   void add_ray(const FanPoint& place, std::uint32_t face);
   /// The cell around the old apex: its place on the new surface is `after`, in the new face between
@@ -111,7 +112,8 @@ class FanOverlay {
   std::vector<CellTexture> textures_;
   double largest2_ = 0;
   Double4 apex_{};
-  glm::dvec2 apex_texture_{0};
+  glm::dvec2 apex_texture_{0}, origin_{0};
+  bool is_backward_ = false, is_mirrored_ = false;  // the rays; the cells that are added
   std::vector<Ray> rays_;
   std::vector<Corner> row_, next_row_;
 };
