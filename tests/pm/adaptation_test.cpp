@@ -1,0 +1,83 @@
+#include "pm/adaptation.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "pm/build.h"
+#include "pm/shapes.h"
+
+namespace viewcell {
+namespace {
+
+double area(const std::array<glm::vec2, 3>& p) {
+  const glm::dvec2 a = glm::dvec2(p[1]) - glm::dvec2(p[0]), b = glm::dvec2(p[2]) - glm::dvec2(p[0]);
+  return (a.x * b.y - a.y * b.x) / 2;
+}
+
+double texture_area(const TriMesh& mesh) {
+  double sum = 0;
+  for (std::size_t c = 0; c < mesh.texcoords.size(); c += 3)
+    sum += std::abs(area({mesh.texcoords[c], mesh.texcoords[c + 1], mesh.texcoords[c + 2]}));
+  return sum;
+}
+
+// Every collapse takes the part of the texture that its star has, once, to the part that its new
+// faces have; nothing turns over.
+TEST(AdaptationLog, PairsCoverTheStarBeforeAndAfter) {
+  std::size_t n_adapted = 0;
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    BuildOptions options;
+    options.metric = seed % 2 ? MetricKind::mapping : MetricKind::qem5;
+    const BuildResult built = build_progressive_mesh(make_relief(seed), options);
+    const AdaptationLog log = make_adaptation_log(built.record);
+    ProgressiveMesh pm(built.record);
+    ASSERT_EQ(log.n_collapses(), pm.n_splits());
+    pm.set_level(pm.n_splits());
+    for (std::size_t i = 0; i < log.n_collapses(); ++i) {
+      const double before = texture_area(pm.extract());
+      pm.coarsen();
+      const double after = texture_area(pm.extract());
+      if (log.of(i).empty()) continue;
+      double sum_before = 0, sum_after = 0;
+      for (const TexturePair& pair : log.of(i)) {
+        EXPECT_GE(area(pair.before), -1e-6);
+        EXPECT_GE(area(pair.after), -1e-6);
+        sum_before += area(pair.before), sum_after += area(pair.after);
+      }
+      EXPECT_NEAR(sum_after - sum_before, after - before, 1e-4) << i;
+      EXPECT_GT(sum_before, 0);
+      ++n_adapted;
+    }
+    EXPECT_LT(log.n_folded, log.n_collapses() / 2);
+    EXPECT_EQ(log.n_unmapped, 0u);
+  }
+  EXPECT_GT(n_adapted, 150u);
+}
+
+// On a plane whose texture is an affine map of it every point keeps its place.
+TEST(AdaptationLog, FlatTexturesStay) {
+  TriMesh grid = make_flat_grid(8);
+  Random random(3);
+  for (glm::vec3& p : grid.positions)
+    if (p.x > 0 && p.x < 8 && p.y > 0 && p.y < 8)
+      p += glm::vec3(random.uniform(-0.3, 0.3), random.uniform(-0.3, 0.3), 0);
+  for (const Triangle& t : grid.triangles)
+    for (const std::uint32_t v : t) {
+      const glm::vec3& p = grid.positions[v];
+      grid.texcoords.emplace_back(0.1f * p.x + 0.02f * p.y, 0.1f * p.y);
+    }
+  BuildOptions options;
+  options.metric = MetricKind::mapping;
+  options.target_faces = 8;
+  const AdaptationLog log = make_adaptation_log(build_progressive_mesh(grid, options).record);
+  EXPECT_GT(log.n_collapses(), 40u);
+  EXPECT_EQ(log.n_folded, 0u);
+  EXPECT_GT(log.pairs.size(), 4 * log.n_collapses());
+  for (const TexturePair& pair : log.pairs)
+    for (std::size_t k = 0; k < 3; ++k)
+      EXPECT_LT(glm::distance(pair.before[k], pair.after[k]), 1e-5f);
+}
+
+}  // namespace
+}  // namespace viewcell
