@@ -17,7 +17,8 @@ struct Finest {
 
 Finest make_finest(const ProgressiveRecord& record) {
   Finest out;
-  out.wedges.positions = record.attributes.positions;
+  out.wedges.positions.assign(record.attributes.positions.begin(),
+                              record.attributes.positions.end());
   out.wedges.texcoords = record.texcoords;
   const std::size_t n = record.attributes.positions.size();
   for (std::size_t w = 0; w < record.texcoords.size(); ++w)
