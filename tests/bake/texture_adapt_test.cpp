@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "mesh/surface_distance.h"
+#include "mesh/closest_point.h"
 #include "pm/build.h"
 #include "pm/shapes.h"
 
