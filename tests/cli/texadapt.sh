@@ -48,4 +48,4 @@ fault 2 "faces" "$texadapt" patch.pm patch.png --faces 0 -o x.png
 fault 2 "faces" "$texadapt" patch.pm patch.png -o x.png
 head -c 500 patch.pm >cut.pm
 fault 1 "cut.pm" "$texadapt" cut.pm patch.png --faces 60 -o x.png
-echo "texadapt.sh: $faults faults"
+echo "texadapt.sh: $n_faults faults"

@@ -1,8 +1,9 @@
 // texadapt: a texture that has followed the collapses of a progressive mesh, for a level of it.
-#include <cmath>
+#include <cstdio>
 
 #include "bake/texture_adapt.h"
 #include "base/error.h"
+#include "common/provenance.h"
 #include "common/stopwatch.h"
 #include "common/tool.h"
 #include "image/io.h"
