@@ -41,7 +41,7 @@ expect 0 "$bin/pmesh" build patch.obj --metric lt -o full.pm
 fault 1 "full-edge" "$texadapt" full.pm patch.png --faces 60 -o x.png
 sed 's/^vt \([0-9]\)/vt 1\1/' patch.obj >wide.obj
 expect 0 "$bin/pmesh" build wide.obj -o wide.pm
-fault 1 "outside \[0, 1\]" "$texadapt" wide.pm patch.png --faces 60 -o x.png
+fault 1 "outside [0, 1]" "$texadapt" wide.pm patch.png --faces 60 -o x.png
 fault 1 "gone.png" "$texadapt" patch.pm gone.png --faces 60 -o x.png
 fault 2 "faces" "$texadapt" patch.pm patch.png --faces 0 -o x.png
 fault 2 "faces" "$texadapt" patch.pm patch.png -o x.png
