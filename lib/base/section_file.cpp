@@ -55,33 +55,47 @@ void SectionWriter::write(const std::filesystem::path& file) const {
   write_file(file, out);
 }
 
-SectionReader::SectionReader(const std::filesystem::path& file, std::uint32_t kind) : file_(file) {
-  fd_ = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
-  if (fd_ < 0) throw InputError(file.string(), "", std::string("cannot open: ") + strerror(errno));
+SectionReader::SectionReader(const std::filesystem::path& file, std::uint32_t kind,
+                             const std::string& what)
+    : file_(file) {
   try {
-    read_table(kind);
+    read_table(kind, what);
   } catch (...) {
-    ::close(fd_);
+    if (fd_ >= 0) ::close(fd_);
     throw;
   }
 }
 
 SectionReader::~SectionReader() {
-  ::close(fd_);
+  if (fd_ >= 0) ::close(fd_);
 }
 
-void SectionReader::read_table(std::uint32_t kind) {
+// Returns its size.
+std::uint64_t SectionReader::open_file() {
   struct stat info {};
+  if (file_ != "-" && ::stat(file_.c_str(), &info) == 0 && S_ISDIR(info.st_mode))
+    fail("", "is a folder, not a file");
+  if (file_ == "-" || (info.st_mode != 0 && !S_ISREG(info.st_mode))) {
+    bytes_ = read_file(file_);
+    return bytes_.size();
+  }
+  fd_ = ::open(file_.c_str(), O_RDONLY | O_CLOEXEC);
+  if (fd_ < 0) fail("", std::string("cannot open: ") + strerror(errno));
   if (::fstat(fd_, &info) != 0 || !S_ISREG(info.st_mode)) fail("", "is not a file");
-  const auto size = static_cast<std::uint64_t>(info.st_size);
+  return static_cast<std::uint64_t>(info.st_size);
+}
+
+void SectionReader::read_table(std::uint32_t kind, const std::string& what) {
+  const std::uint64_t size = open_file();
   std::string head(kHeadBytes, '\0');
-  if (size < kHeadBytes + 8) fail("", "is too short to be a section file");
+  if (size < kHeadBytes + 8) fail("", "is too short to be " + what);
   read_at(0, head.data(), head.size());
-  if (std::memcmp(head.data(), kMagic, sizeof kMagic) != 0) fail("", "is not a section file");
+  if (std::memcmp(head.data(), kMagic, sizeof kMagic) != 0) fail("", "is not " + what);
   std::uint32_t found_kind = 0, n = 0;
   std::memcpy(&found_kind, head.data() + 8, 4);
   std::memcpy(&n, head.data() + 12, 4);
-  if (found_kind != kind) fail("", "is a section file of another kind");
+  if (found_kind != kind)
+    fail("", what == "a section file" ? "is a section file of another kind" : "is not " + what);
   if (n > kMostSections || size < kHeadBytes + n * kEntryBytes + 8) fail("", "is truncated");
   head.resize(kHeadBytes + n * kEntryBytes + 8);
   read_at(kHeadBytes, head.data() + kHeadBytes, head.size() - kHeadBytes);
@@ -111,6 +125,10 @@ void SectionReader::read_bytes(const Section& section, char* to) const {
 }
 
 void SectionReader::read_at(std::uint64_t offset, char* to, std::uint64_t n) const {
+  if (fd_ < 0) {
+    std::memcpy(to, bytes_.data() + offset, n);  // read_table has checked the sections
+    return;
+  }
   while (n > 0) {
     const ssize_t got = ::pread(fd_, to, n, static_cast<off_t>(offset));
     if (got < 0 && errno == EINTR) continue;

@@ -44,7 +44,10 @@ class SectionWriter {
 class SectionReader {
  public:
   /// Throws InputError when the file is missing, truncated, of another kind, or its table is bad.
-  SectionReader(const std::filesystem::path& file, std::uint32_t kind);
+  /// what: a file of this kind, with its article, for errors. "-", a pipe or a device is read into
+  /// memory whole.
+  SectionReader(const std::filesystem::path& file, std::uint32_t kind,
+                const std::string& what = "a section file");
   ~SectionReader();
   SectionReader(const SectionReader&) = delete;
   SectionReader& operator=(const SectionReader&) = delete;
@@ -77,10 +80,12 @@ class SectionReader {
   const Section& find(const std::string& tag) const;
   void read_bytes(const Section& section, char* to) const;
   void read_at(std::uint64_t offset, char* to, std::uint64_t n) const;
-  void read_table(std::uint32_t kind);
+  std::uint64_t open_file();
+  void read_table(std::uint32_t kind, const std::string& what);
 
   std::filesystem::path file_;
-  int fd_ = -1;
+  int fd_ = -1;        // of a regular file; otherwise
+  std::string bytes_;  // the whole of it
   std::vector<Section> sections_;
 };
 

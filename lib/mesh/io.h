@@ -9,13 +9,15 @@
 
 namespace viewcell {
 
-/// Reads OBJ, PLY (also .ply.gz), OFF, STL, GLB/glTF, 3DS by the file's extension. Polygons are cut
+/// Reads OBJ, PLY (also .ply.gz), OFF, STL, GLB/glTF, 3DS by the file's extension; "-" (standard
+/// input) and names without a known one, by what the file holds. Polygons are cut
 /// into fans; vertex order and numbers stay those of the file (STL: equal positions become one
 /// vertex). Normals come out of unit length. Colours in files are taken as sRGB, except glTF's,
 /// which are linear. Texture coordinates have (0, 0) at the image's lower left; glTF's are turned
 /// over. A glTF scene's nodes are flattened into one mesh. Throws InputError (file, place) for
 /// anything malformed, and for a mesh with no faces.
-TriMesh read_mesh(const std::filesystem::path& file);
+/// hash: hash_hex of the file's bytes, if wanted: a pipe is read once.
+TriMesh read_mesh(const std::filesystem::path& file, std::string* hash = nullptr);
 
 /// Binary little-endian PLY: positions, and normals, colours and texture coordinates (as a list
 /// "texcoord" of each face) where present. comments: lines of

@@ -37,14 +37,6 @@ class Welder {
   std::unordered_map<glm::vec3, std::uint32_t, PositionHash> ids_;
 };
 
-// Many binary files begin with "solid" like text, so their size decides.
-bool is_binary(std::string_view bytes) {
-  if (bytes.size() < kHeaderBytes) return false;
-  std::uint32_t n;
-  std::memcpy(&n, bytes.data() + 80, sizeof n);
-  return bytes.size() == kHeaderBytes + kFacetBytes * std::uint64_t{n};
-}
-
 TriMesh parse_binary(std::string_view bytes, const std::string& file) {
   TriMesh mesh;
   Welder welder(mesh);
@@ -112,8 +104,17 @@ TriMesh parse_text(std::string_view bytes, const std::string& file) {
 
 }  // namespace
 
+// Many binary files begin with "solid" like text, so their size decides.
+bool is_binary_stl(std::string_view bytes) {
+  if (bytes.size() < kHeaderBytes) return false;
+  std::uint32_t n;
+  std::memcpy(&n, bytes.data() + 80, sizeof n);
+  return bytes.size() == kHeaderBytes + kFacetBytes * std::uint64_t{n};
+}
+
 TriMesh parse_stl(std::string_view bytes, const std::filesystem::path& file) {
-  return is_binary(bytes) ? parse_binary(bytes, file.string()) : parse_text(bytes, file.string());
+  return is_binary_stl(bytes) ? parse_binary(bytes, file.string())
+                              : parse_text(bytes, file.string());
 }
 
 }  // namespace viewcell

@@ -16,6 +16,7 @@ TriMesh parse_ply_mesh(std::string_view bytes, const std::filesystem::path& file
 /// OFF, and COFF, NOFF, STOFF and their mixtures; colours of faces are passed over.
 TriMesh parse_off(std::string_view bytes, const std::filesystem::path& file);
 /// Text or binary, told apart by the size that a binary file states. Equal positions are welded.
+bool is_binary_stl(std::string_view bytes);
 TriMesh parse_stl(std::string_view bytes, const std::filesystem::path& file);
 /// Material libraries that it names must lie in its folder; they may be missing.
 TriMesh parse_obj(std::string_view bytes, const std::filesystem::path& file);

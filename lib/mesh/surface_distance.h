@@ -74,6 +74,6 @@ SurfaceDistance measure_surface_distance(const TriMesh& a, const TriMesh& b,
                                          const Progress& progress = {});
 
 /// read_mesh, and an InputError when all faces together have no area.
-TriMesh read_surface(const std::filesystem::path& file);
+TriMesh read_surface(const std::filesystem::path& file, std::string* hash = nullptr);
 
 }  // namespace viewcell

@@ -50,7 +50,7 @@ void write_pm(const std::filesystem::path& file, const ProgressiveRecord& r) {
 }
 
 ProgressiveRecord read_pm(const std::filesystem::path& file) {
-  const SectionReader reader(file, kKind);
+  const SectionReader reader(file, kKind, "a progressive mesh (.pm)");
   const Json json = read_info(reader, file);
   const JsonCursor info(json, file);
   if (info.at("format").string() != "viewcell-pm") info.at("format").fail("is not viewcell-pm");
