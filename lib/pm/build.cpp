@@ -127,8 +127,10 @@ void check_options(const TriMesh& mesh, const BuildOptions& options) {
   if (options.placement == Placement::full && options.metric == MetricKind::aps)
     throw UsageError(metric + " is for half-edge collapses: it needs --placement half");
   if (mesh.texcoords.empty())
-    throw InputError(options.name, "",
-                     "has no texture coordinates, which " + metric + " needs; uvpatch makes some");
+    throw InputError(
+        options.name, "",
+        "has no texture coordinates, which " + metric + " needs; uvpatch makes some for a patch" +
+            (options.metric == MetricKind::mapping ? ", and --placement full needs none" : ""));
 }
 
 }  // namespace
@@ -154,6 +156,8 @@ BuildResult build_progressive_mesh(const TriMesh& mesh, const BuildOptions& opti
                                    const Progress& progress) {
   check_options(mesh, options);
   WedgeMesh wedges = make_wedges(mesh, true);
+  if (wedges.faces.empty())
+    throw InputError(options.name, "", "has no triangle with three different corners");
   const float scale = unit_scale(wedges.positions);
   for (glm::vec3& p : wedges.positions) p *= scale;
   const std::vector<Triangle> triangles = wedges.vertex_triangles();

@@ -65,6 +65,16 @@ void ProgressiveMesh::set_faces(std::size_t n) {
   while (level_ < n_splits() && n_faces_ + record_.splits[level_].n_born <= n) refine();
 }
 
+bool ProgressiveMesh::set_error(double most) {
+  const std::vector<VertexSplit>& splits = record_.splits;
+  if (std::any_of(splits.begin(), splits.end(), [](const VertexSplit& s) { return s.error < 0; }))
+    return false;
+  std::size_t level = 0;
+  while (level < splits.size() && !(splits[level].error <= most)) ++level;
+  set_level(level);
+  return true;
+}
+
 void ProgressiveMesh::set_level(std::size_t level) {
   VIEWCELL_CHECK(level <= n_splits(), level, n_splits());
   while (level_ > level) coarsen();

@@ -74,6 +74,9 @@ class ProgressiveMesh {
   void coarsen();  ///< level() > 0
   /// The finest level of at most n faces, or the base.
   void set_faces(std::size_t n);
+  /// The coarsest level whose error() is at most `most`, mesh units. Returns false, and stays,
+  /// where a level's error is not known.
+  bool set_error(double most);
   void set_level(std::size_t level);
 
   /// The mesh at this level: vertices and faces in the input's order, those of the input that are
