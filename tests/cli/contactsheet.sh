@@ -52,6 +52,8 @@ expect 0 "$sheet" $ball $ball -o few.png --bits 4
 fault 2 "PICTURE is required" "$sheet" -o x.png
 fault 2 "--output is required" "$sheet" a.png
 fault 2 "-o names a file" "$sheet" a.png -o -
+fault 2 "-o is a PNG: it does not end in .png" "$sheet" a.png -o x.svg
+fault 2 "-o is picture b.png, which is read" "$sheet" a.png b.png -o ./b.png
 fault 2 "more --note than pictures" "$sheet" a.png --note a --note b -o x.png
 fault 2 "every place is blank" "$sheet" "" "" -o x.png
 fault 2 "--columns" "$sheet" a.png --columns 0 -o x.png

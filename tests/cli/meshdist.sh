@@ -64,7 +64,8 @@ grep -Eq '^symmetric +1e\+30 +1e\+30 +1e\+30 ' "$log/out" || fail "1e30: $(cat "
 
 # The threshold.
 expect 0 "$meshdist" low.off high.off --samples 100 --fail-above 1
-expect 5 "$meshdist" low.off high.off --samples 100 --fail-above 0.999
+expect 5 "$meshdist" low.off high.off --samples 100 --fail-above 0.999 -q
+grep -qx "meshdist: symmetric maximum 1 is above 0.999" "$log/err" || fail "--fail-above: $(cat "$log/err")"
 grep -q "^symmetric" "$log/out" || fail "no table beside exit code 5"
 
 # The coloured mesh: the same bytes each time, read again, and its colours.
@@ -105,7 +106,10 @@ for x in 0 -1 nan x; do
   fault 2 "--histogram-to" "$meshdist" a.off b.off --histogram 4 --histogram-to=$x
 done
 fault 2 "--histogram-to requires" "$meshdist" a.off b.off --histogram-to 1
-fault 2 "--seed" "$meshdist" a.off b.off --seed=-1
+for seed in -1 1.5 x 18446744073709551616 99999999999999999999999; do
+  fault 2 "--seed" "$meshdist" a.off b.off --seed=$seed
+done
+expect 0 "$meshdist" low.off high.off --samples 10 --seed 18446744073709551615
 fault 2 "--colour" "$meshdist" a.off b.off --colour x.ply
 fault 2 "--threads" "$meshdist" a.off b.off -j -1
 
@@ -129,9 +133,30 @@ bad folder.ply ""
 bad line.off "has no area"
 bad faceless.off "has no faces"
 for file in empty.ply noise.ply cut.off nan.off infinite.off index.off; do bad $file ""; done
+cp noise.ply noise.xyz
+bad noise.xyz "is of no known mesh format"
+bad - "is of no known mesh format"  # there is nothing
+
+# From pipes, told by what they hold, and names without a known ending.
+expect 0 "$meshdist" a.off b.off --samples 1000
+cp "$log/out" wanted.txt
 cp a.off a.xyz
-bad a.xyz "is of no known mesh format"
-bad - "is of no known mesh format"  # meshes are read by name: the ending tells the format
+cat a.off | "$meshdist" - b.off --samples 1000 -q | cmp - wanted.txt || fail "- as A"
+cat b.off | "$meshdist" a.xyz /dev/stdin --samples 1000 -q | cmp - wanted.txt || fail "/dev/stdin as B"
+"$meshdist" <(cat a.off) <(cat b.off) --samples 1000 -q | cmp - wanted.txt || fail "<()"
+fault 2 "A and B cannot both be standard input" "$meshdist" - - --samples 1000
+fault 2 "A and B cannot both be standard input" "$meshdist" - /dev/stdin --samples 1000
+
+# Nothing is written over what is read, or twice; endings tell what is written.
+cp a.off a.ply
+ln -s b.off b.ply
+fault 2 "--color is A" "$meshdist" a.ply b.off --color a.ply
+fault 2 "--color is B" "$meshdist" a.off b.off --color ./b.ply
+fault 2 "-o is B" "$meshdist" a.off b.off -o b.off
+fault 2 "--json and --color are one file" "$meshdist" a.off b.off --color c.ply --json c.ply
+fault 2 "-o and --json cannot both be standard output" "$meshdist" a.off b.off -o - --json -
+fault 2 "--color is a PLY: it does not end in .ply" "$meshdist" a.off b.off --color c.png
+rm a.ply b.ply
 
 # The machine's fault, and nothing left behind.
 fault 3 "no/x.ply" "$meshdist" a.off b.off --samples 100 --color no/x.ply

@@ -64,6 +64,10 @@ fault 2 "--points" "$plot" curves.csv --x faces --y max --points --steps -o x.sv
 fault 2 "--y-least is not below" "$plot" curves.csv --x faces --y max --y-least 3 --y-most 3 -o x.svg
 fault 2 "--log-y needs" "$plot" curves.csv --x faces --y max --log-y --y-most 0 -o x.svg
 fault 2 "--y-most" "$plot" curves.csv --x faces --y max --y-most nan -o x.svg
+fault 2 "-o is an SVG: it does not end in .svg" "$plot" curves.csv --x faces --y max -o x.png
+cp curves.csv curves.svg
+fault 2 "-o is the table that is read" "$plot" curves.svg --x faces --y max -o ./curves.svg
+rm curves.svg
 fault 2 "cannot both be" "$plot" curves.csv --x faces --y max -o - --json -
 
 # Bad input.

@@ -67,10 +67,29 @@ grep -q '"error_bound": null' plain.json || fail "a bound from nowhere"
 bound=$(grep -o '"error_bound": [0-9.e-]*' tracked.json | grep -o '[0-9.e-]*$')
 expect 0 "$bin/meshdist" whole.ply tracked.ply --samples 20000 --fail-above "$bound"
 
+# The coarsest level within a distance: its bound is not above, that of the next coarser is.
+cost_of() { grep -o '"error_bound": [0-9.e-]*' level.json | grep -o '[0-9.e-]*$'; }
+expect 0 "$pmesh" extract tracked.pm --within 0.1 -o near.ply --json level.json
+near=$(grep -o '"faces": [0-9]*' level.json | grep -o '[0-9]*$')
+awk -v e="$(cost_of)" 'BEGIN { exit !(e > 0 && e <= 0.1) }' || fail "--within: $(cat level.json)"
+expect 0 "$bin/meshdist" whole.ply near.ply --samples 20000 --fail-above 0.1
+expect 0 "$pmesh" extract tracked.pm --faces $((near - 1)) -o x.ply --json level.json
+awk -v e="$(cost_of)" 'BEGIN { exit !(e > 0.1) }' || fail "--within is not the coarsest: $(cat level.json)"
+expect 0 "$pmesh" extract tracked.pm --within 1e9 -o x.ply --json level.json
+grep -q '"faces": \(99\|100\),' level.json || fail "--within 1e9 is not the base: $(cat level.json)"
+expect 0 "$pmesh" info tracked.pm
+grep -q "\"error_bound_base\": $bound" "$log/out" || fail "error_bound_base: $(cat "$log/out")"
+expect 0 "$pmesh" info plain.pm
+grep -q '"error_bound_base": null' "$log/out" || fail "error_bound_base from nowhere: $(cat "$log/out")"
+rm x.ply
+
 # A target that cannot be reached is said, with the reasons, and what there is is written.
 expect 5 "$pmesh" build ball.off --stop-at 2 -o stuck.pm
-[ "$(wc -l <"$log/err")" -eq 1 ] && grep -q "2 faces were asked for, .* by link" "$log/err" ||
+[ "$(wc -l <"$log/err")" -eq 1 ] && grep -q "ball.off: 2 faces were asked for, .* by link" "$log/err" ||
   fail "stuck: $(cat "$log/err")"
+cp stuck.pm stuck-2.pm
+expect 5 "$pmesh" build ball.off --stop-at 1 -o stuck.pm
+grep -q "ball.off: 1 faces were asked for" "$log/err" || fail "stuck at 1: $(cat "$log/err")"
 expect 0 "$pmesh" info stuck.pm
 expect 5 "$pmesh" extract stuck.pm --faces 1 -o few.ply
 grep -q "its base has" "$log/err" || fail "too few: $(cat "$log/err")"
@@ -78,6 +97,25 @@ expect 0 "$pmesh" build ball.off --stop-at 300 -o some.pm
 expect 0 "$pmesh" info some.pm
 grep -q '"faces_base": 300' "$log/out" || fail "--stop-at 300: $(cat "$log/out")"
 expect 0 "$pmesh" build ball.off --stop-at 0.01 -o cheap.pm
+
+# From pipes.
+expect 0 "$pmesh" build ball.off --stop-at 300 -o piped.pm
+for from in - /dev/stdin; do
+  "$pmesh" build $from --stop-at 300 -o again.pm -q <ball.off || fail "build $from"
+  cmp piped.pm again.pm || fail "build $from: other bytes"
+  cat ball.off | "$pmesh" build $from --stop-at 300 -o again.pm -q || fail "build $from"
+  cmp piped.pm again.pm || fail "build $from: other bytes from a pipe"
+  cat piped.pm | "$pmesh" extract $from --faces 400 -o again.ply -q || fail "extract $from"
+  cat piped.pm | "$pmesh" info $from >info.json || fail "info $from"
+  "$pmesh" info piped.pm | cmp - info.json || fail "info $from differs"
+done
+expect 0 "$pmesh" build <(cat ball.off) --stop-at 300 -o again.pm
+cmp piped.pm again.pm || fail "build <(): other bytes"
+expect 0 "$pmesh" extract <(cat piped.pm) --faces 400 -o piped.ply
+cmp piped.ply again.ply || fail "extract <(): other bytes"
+for ((cut = 0; cut < 3000; cut += 700)); do
+  fault 1 "/dev/fd/" "$pmesh" extract <(head -c $cut piped.pm) --faces 400 -o x.ply
+done
 
 # To a pipe, and from a kilometre to a nanometre.
 "$pmesh" extract some.pm --faces 400 -o - -q | head -c 3 | grep -q ply || fail "-o -"
@@ -94,7 +132,7 @@ expect 0 "$pmesh" extract one.pm --faces 1 -o one.ply
 awk '/^vt/ { next } /^f/ { n += 3; print "vt", n, 0; print "vt", n + 1, 0; print "vt", n, 1
   gsub("/[0-9]*", ""); print "f", $2 "/" n - 2, $3 "/" n - 1, $4 "/" n; next } 1' relief.obj >cut.obj
 expect 5 "$pmesh" build cut.obj --stop-at 100 -o cut.pm
-grep -q "by chart" "$log/err" || fail "not held back: $(cat "$log/err")"
+grep -q "by chart.*; --no-texture leaves charts out" "$log/err" || fail "not held back: $(cat "$log/err")"
 expect 0 "$pmesh" build cut.obj --stop-at 100 --no-texture -o uncut.pm
 expect 0 "$pmesh" info uncut.pm
 grep -q '"texture_coordinates": false' "$log/out" || fail "texture left: $(cat "$log/out")"
@@ -114,10 +152,58 @@ fault 2 "mapping with --placement full" \
 fault 2 "is no metric" "$pmesh" build ball.off --metric best -o x.pm
 fault 2 "needs -o" "$pmesh" build ball.off
 fault 2 "needs -o" "$pmesh" extract some.pm --faces 400
-for stop in 0 -3 many 1e 0.0; do fault 2 "" "$pmesh" build ball.off --stop-at=$stop -o x.pm; done
+for stop in 0 -3 many 1e 0.0 +5 0x10 " 500" 5e2 1e9 500f . .e3 1.5e 1.5e99 -0.5 0x1.8 nan 4000000001 ""; do
+  fault 2 "--stop-at '$stop' is neither" "$pmesh" build ball.off --stop-at "$stop" -o x.pm
+done
+for faces in -1 0 1.5 99999999999999999999999 4000000001 +5 ""; do
+  fault 2 "--faces" "$pmesh" extract some.pm --faces "$faces" -o x.ply
+done
+for within in -1 nan x ""; do fault 2 "--within" "$pmesh" extract some.pm --within "$within" -o x.ply; done
+fault 2 "needs --faces or --within" "$pmesh" extract some.pm -o x.ply
+fault 2 "--within" "$pmesh" extract some.pm --faces 9 --within 1 -o x.ply
+fault 1 "some.pm: has no error bounds; pmesh build --track-error" "$pmesh" extract some.pm --within 1 -o x.ply
+
+# Nothing is written over what is read, or twice.
+ln -s some.pm link.pm
+ln ball.off hard.pm
+fault 2 "-o is the mesh that is read" "$pmesh" build hard.pm -o ./hard.pm
+fault 2 "-o is the mesh that is read" "$pmesh" build ball.off -o hard.pm
+fault 2 "--json is the mesh that is read" "$pmesh" build ball.off -o x.pm --json ./ball.off
+fault 2 "-o is the progressive mesh that is read" "$pmesh" extract whole.ply --faces 5 -o whole.ply
+fault 2 "--json is the progressive mesh that is read" "$pmesh" extract some.pm --faces 5 -o x.ply --json link.pm
+fault 2 "--json is the progressive mesh that is read" "$pmesh" info link.pm --json some.pm
+fault 2 "-o and --json are one file" "$pmesh" build ball.off -o x.pm --json ./x.pm
+fault 2 "cannot both be standard output" "$pmesh" build ball.off -o - --json -
+rm link.pm hard.pm
+# Endings tell what is written.
+fault 2 "-o is a progressive mesh: it does not end in .pm" "$pmesh" build ball.off -o x.ply
+fault 2 "it does not end in .ply or .obj" "$pmesh" extract some.pm --faces 100 -o x.stl
+expect 0 "$pmesh" build ball.off -o /dev/null
+expect 0 "$pmesh" extract some.pm --faces 400 -o some.obj
+expect 0 "$pmesh" extract some.pm --faces 400 -o some.ply
+[ "$(grep -c '^f ' some.obj)" -eq 400 ] || fail "no OBJ of 400 faces"
+expect 0 "$bin/meshdist" some.obj some.ply --samples 1000 --fail-above 1e-12
+
+# Options that the metric has no use for.
+useless() { fault 2 "$1 does nothing under --metric $3" "$pmesh" build relief.obj $1 $2 --metric $3 -o x.pm; }
+for metric in qem3 qem5 lt; do useless --error total $metric; done
+for metric in qem3 qem5 lt aps; do useless --measure max $metric; done
+for metric in aps mapping lt; do useless --unweighted "" $metric; useless --boundary-weight 2 $metric; done
+useless --mean "" lt
+for metric in qem3 aps mapping lt; do useless --texture-weight 2 $metric; done
+fault 2 "--no-texture" "$pmesh" build relief.obj --no-folds --no-texture -o x.pm
+for metric in qem5 aps mapping; do
+  fault 2 "--metric $metric needs the texture coordinates that --no-texture" \
+    "$pmesh" build relief.obj --no-texture --metric $metric -o x.pm
+done
+expect 0 "$pmesh" build relief.obj --no-texture --metric mapping --placement full --stop-at 300 -o x.pm
+rm x.pm
+fault 1 "for a patch, and --placement full needs none" "$pmesh" build ball.off --metric mapping -o x.pm
+printf 'OFF\n4 2 0\n0 0 0\n1 0 0\n0 0 0\n1 0 0\n3 0 1 2\n3 3 1 0\n' >flat.off
+fault 1 "flat.off: has no triangle with three different corners" "$pmesh" build flat.off -o x.pm
 fault 1 "gone.off" "$pmesh" build gone.off -o x.pm
 fault 1 "gone.pm" "$pmesh" info gone.pm
-fault 1 "ball.off: is" "$pmesh" info ball.off
+fault 1 "ball.off: is not a progressive mesh (.pm)" "$pmesh" info ball.off
 cp some.pm bad.pm
 size=$(stat -c %s bad.pm)
 for cut in 0 10 100 $((size / 2)) $((size - 1)); do

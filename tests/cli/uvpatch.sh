@@ -85,6 +85,9 @@ fault 2 "--strength" "$uvpatch" ball.off --faces 9 --distort swirl --strength na
 fault 2 "--strength is for" "$uvpatch" ball.off --faces 9 --strength 1 -o x.obj
 fault 2 "--squares is more" "$uvpatch" ball.off --faces 9 --texture-size 8 -o x.obj
 fault 2 "does not end in .obj" "$uvpatch" ball.off --faces 9 -o x.ply
+fault 2 "cannot both be standard output" "$uvpatch" ball.off --faces 9 -o - --json -
+cat ball.off | "$uvpatch" - --faces 200 -o - -q | cmp - <("$uvpatch" ball.off --faces 200 -o - -q) ||
+  fail "a mesh from a pipe"
 fault 2 "is the mesh that is read" "$uvpatch" a.obj --faces 9 -o ./a.obj
 
 # --- bad input, and the machine's fault: no file of the set appears ---

@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <charconv>
 #include <cstdio>
 #include <iostream>
 #include <new>
@@ -32,6 +33,26 @@ CLI::Validator within(double lo, double hi) {
     return "'" + given + "' is not within " + text;
   };
   return {check, range.str()};
+}
+
+bool parse_whole(const std::string& text, std::uint64_t lo, std::uint64_t hi, std::size_t& n) {
+  std::uint64_t value = 0;
+  const char* end = text.data() + text.size();
+  if (std::from_chars(text.data(), end, value) != std::from_chars_result{end, std::errc()} ||
+      value < lo || value > hi)
+    return false;
+  n = value;
+  return true;
+}
+
+CLI::Validator whole_within(std::uint64_t lo, std::uint64_t hi) {
+  const std::string range = std::to_string(lo) + " to " + std::to_string(hi);
+  const auto check = [lo, hi, range](std::string& given) {
+    std::size_t ignored = 0;
+    if (parse_whole(given, lo, hi, ignored)) return std::string();
+    return "'" + given + "' is not a whole number from " + range;
+  };
+  return {check, range};
 }
 
 Tool::Tool(const std::string& name, const std::string& description, const std::string& example)

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <cstdint>
 #include <functional>
 #include <string>
 
@@ -13,6 +14,12 @@ namespace viewcell {
 
 /// For options: a number within [lo, hi]. CLI::Range lets NaN through.
 CLI::Validator within(double lo, double hi);
+
+/// Digits alone, and lo to hi; otherwise false, and n stays.
+bool parse_whole(const std::string& text, std::uint64_t lo, std::uint64_t hi, std::size_t& n);
+
+/// For options: digits alone, lo to hi.
+CLI::Validator whole_within(std::uint64_t lo, std::uint64_t hi);
 
 /// The options that every tool has.
 struct CommonOptions {

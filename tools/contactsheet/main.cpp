@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "common/files.h"
 #include "common/tool.h"
 #include "image/io.h"
 #include "play/contact_sheet.h"
@@ -62,10 +63,20 @@ std::vector<ImageRgba8> read_pictures(const std::vector<std::string>& files) {
   return pictures;
 }
 
+void check_paths(const Tool& tool, const Arguments& arguments) {
+  const CommonOptions& common = tool.common();
+  if (common.output == "-") throw UsageError("-o names a file");
+  check_ending({"-o", common.output}, {".png"}, "a PNG");
+  std::vector<NamedFile> inputs;
+  for (const std::string& file : arguments.pictures)
+    inputs.push_back({"picture " + file + ", which is read", file});
+  check_files(inputs, {{"-o", common.output}, {"--json", common.json_file}});
+}
+
 int run(const Tool& tool, const Arguments& arguments) {
   if (arguments.notes.size() > arguments.pictures.size())
     throw UsageError("more --note than pictures");
-  if (tool.common().output == "-") throw UsageError("-o names a file");
+  check_paths(tool, arguments);
   std::vector<ImageRgba8> pictures = read_pictures(arguments.pictures);
   if (arguments.trim) trim_alike(pictures);
   const std::size_t n_columns = std::min(arguments.n_columns, pictures.size());

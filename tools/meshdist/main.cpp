@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/table.h"
+#include "common/files.h"
 #include "common/provenance.h"
 #include "common/stopwatch.h"
 #include "common/tool.h"
@@ -28,7 +29,7 @@ struct Arguments {
 void declare(Tool& tool, Arguments& arguments) {
   CLI::App& app = tool.app();
   DistanceOptions& options = arguments.options;
-  app.add_option("A", arguments.a, "mesh: OBJ, PLY, PLY.GZ, OFF, STL, GLB, glTF or 3DS")
+  app.add_option("A", arguments.a, "mesh: OBJ, PLY, PLY.GZ, OFF, STL, GLB, glTF or 3DS (-: stdin)")
       ->required();
   app.add_option("B", arguments.b, "the mesh to compare with it")->required();
   app.add_option("--samples", options.n_samples, "samples on the faces of each mesh")
@@ -36,7 +37,7 @@ void declare(Tool& tool, Arguments& arguments) {
       ->check(CLI::Range(1, 100'000'000));
   app.add_option("--seed", options.seed, "shifts the samples on faces")
       ->capture_default_str()
-      ->check(CLI::NonNegativeNumber);
+      ->check(whole_within(0, std::numeric_limits<decltype(options.seed)>::max()));
   app.add_flag("--unit-cube", options.unit_cube,
                "results as if A were scaled into the unit cube, and B by the same factor");
   app.add_option("--color", arguments.color,
@@ -66,7 +67,8 @@ std::array<double, 2> parse_range(const std::string& text) {
 }
 
 void write_color(const Tool& tool, const Arguments& arguments, const TriMesh& a,
-                 const SurfaceDistance& distance, const std::array<double, 2>& range) {
+                 const SurfaceDistance& distance, const std::array<double, 2>& range,
+                 const std::array<std::string, 2>& hashes) {
   const DistanceOptions& options = arguments.options;
   const Json typed{{"samples", options.n_samples},
                    {"seed", options.seed},
@@ -74,23 +76,31 @@ void write_color(const Tool& tool, const Arguments& arguments, const TriMesh& a,
                    {"range", range}};
   write_colored_mesh(
       arguments.color, a, distance, range,
-      {"provenance " +
-       make_provenance(tool, typed, {{"a", hash_file(arguments.a)}, {"b", hash_file(arguments.b)}})
-           .dump()});
+      {"provenance " + make_provenance(tool, typed, {{"a", hashes[0]}, {"b", hashes[1]}}).dump()});
+}
+
+void check_paths(const Tool& tool, const Arguments& arguments) {
+  const CommonOptions& common = tool.common();
+  check_ending({"--color", arguments.color}, {".ply"}, "a PLY");
+  check_files({{"A", arguments.a}, {"B", arguments.b}},
+              {{"-o", common.output}, {"--json", common.json_file}, {"--color", arguments.color}});
 }
 
 int run(const Tool& tool, const Arguments& arguments) {
+  check_paths(tool, arguments);
   std::optional<std::array<double, 2>> range;
   if (arguments.range) range = parse_range(*arguments.range);
-  const TriMesh a = read_surface(arguments.a);
-  const TriMesh b = read_surface(arguments.b);
+  std::array<std::string, 2> hashes;
+  const TriMesh a = read_surface(arguments.a, &hashes[0]);
+  const TriMesh b = read_surface(arguments.b, &hashes[1]);
   DistanceOptions options = arguments.options;
   options.n_threads = tool.common().n_threads;
   Stopwatch watch;
   const SurfaceDistance distance = measure_surface_distance(a, b, options, tool.progress("block"));
   const double took_s = watch.lap_s();
   if (!arguments.color.empty())
-    write_color(tool, arguments, a, distance, range.value_or(default_color_range(distance)));
+    write_color(tool, arguments, a, distance, range.value_or(default_color_range(distance)),
+                hashes);
 
   const std::string table_file = tool.common().output.empty() ? "-" : tool.common().output;
   if (!(tool.common().json_file == "-" && table_file == "-"))
@@ -99,7 +109,11 @@ int run(const Tool& tool, const Arguments& arguments) {
   const std::size_t n = distance.forward.n_all_samples() + distance.backward.n_all_samples();
   tool.say(format_fixed(1e-6 * static_cast<double>(n), 2, "") + " million samples in " +
            format_fixed(took_s, 2, "") + " s");
-  return distance.symmetric().max > arguments.fail_above ? kOverThreshold : 0;
+  const double most = distance.symmetric().max;
+  if (!(most > arguments.fail_above)) return 0;
+  std::fprintf(stderr, "meshdist: symmetric maximum %.6g is above %.6g\n", most,
+               arguments.fail_above);
+  return kOverThreshold;
 }
 
 }  // namespace

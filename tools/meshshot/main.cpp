@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/table.h"
+#include "common/files.h"
 #include "common/provenance.h"
 #include "common/stopwatch.h"
 #include "common/tool.h"
@@ -20,6 +21,7 @@ namespace fs = std::filesystem;
 
 struct Options {
   std::string mesh_file, texture_file, like_file, box;
+  std::string mesh_hash, like_hash;  // once they are read
   std::string up = "auto", normals = "mesh", gl = "osmesa", sheet;
   bool unlit = false, fixed_light = false, no_sheet = false;
   MeshStyle style;
@@ -70,12 +72,12 @@ void declare(Tool& tool, Options& o) {
   tool.add_output("folder DIR of pictures to write, view-00.png and on");
 }
 
-MeshFrame choose_frame(const Options& o, const TriMesh& mesh) {
+MeshFrame choose_frame(Options& o, const TriMesh& mesh) {
   const std::string& source = o.like_file.empty() ? o.mesh_file : o.like_file;
   const std::string up = o.up == "auto" ? up_axis_of(source) : o.up;
   if (!o.box.empty()) return make_frame(parse_box(o.box), up, "--box");
-  return make_frame(box_of_triangles(o.like_file.empty() ? mesh : read_mesh(o.like_file)), up,
-                    source);
+  if (o.like_file.empty()) return make_frame(box_of_triangles(mesh), up, source);
+  return make_frame(box_of_triangles(read_mesh(o.like_file, &o.like_hash)), up, source);
 }
 
 std::optional<ImageRgba8> read_texture(const Options& o, const TriMesh& mesh) {
@@ -99,23 +101,28 @@ void settle_options(const Tool& tool, Options& o) {
   o.shots.n_threads = tool.common().n_threads;
   if (!o.no_sheet)
     o.shots.sheet = o.sheet.empty() ? sheet_beside(o.shots.folder) : fs::path(o.sheet);
+  const std::string sheet = o.shots.sheet.string();
+  check_ending({"--sheet", sheet}, {".png"}, "a PNG");
+  check_files({{"the mesh that is read", o.mesh_file},
+               {"the texture that is read", o.texture_file},
+               {"the mesh of --like", o.like_file}},
+              {{"--sheet", sheet}, {"--json", tool.common().json_file}});
   check_shot_folder(o.shots.folder, o.shots.n_views);
 }
 
 Json format_provenance(const Tool& tool, const Options& o) {
-  const auto hash = [](const std::string& file) {
-    return file.empty() || file == "-" ? Json() : Json(hash_file(file));
-  };
-  return make_provenance(tool, format_style(o.style),
-                         {{"mesh", hash(o.mesh_file)},
-                          {"texture", hash(o.texture_file)},
-                          {"like", hash(o.like_file)}});
+  const std::string& texture = o.texture_file;
+  return make_provenance(
+      tool, format_style(o.style),
+      {{"mesh", o.mesh_hash},
+       {"texture", texture.empty() || texture == "-" ? Json() : Json(hash_file(texture))},
+       {"like", o.like_file.empty() ? Json() : Json(o.like_hash)}});
 }
 
 int run(const Tool& tool, Options& o) {
   Stopwatch watch;
   settle_options(tool, o);
-  const TriMesh mesh = read_mesh(o.mesh_file);
+  const TriMesh mesh = read_mesh(o.mesh_file, &o.mesh_hash);
   const MeshFrame frame = choose_frame(o, mesh);
   const std::optional<ImageRgba8> texture = read_texture(o, mesh);
   const double read_s = watch.lap_s();

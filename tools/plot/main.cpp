@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/plot_csv.h"
+#include "common/files.h"
 #include "common/tool.h"
 
 namespace viewcell {
@@ -69,8 +70,9 @@ Json format_panels(const Plot& plot, const CsvPlotOptions& options) {
 int run(const Tool& tool, Arguments& arguments) {
   settle_options(arguments);
   const std::string& output = tool.common().output;
-  if (output == "-" && tool.common().json_file == "-")
-    throw UsageError("-o and --json cannot both be standard output");
+  check_ending({"-o", output}, {".svg"}, "an SVG");
+  check_files({{"the table that is read", arguments.table}},
+              {{"-o", output}, {"--json", tool.common().json_file}});
   const CsvTable table = parse_csv(read_file(arguments.table), arguments.table);
   const Plot plot = make_csv_plot(table, arguments.options);
   write_file(output, format_svg(plot));

@@ -4,12 +4,12 @@
 #include <charconv>
 
 #include "base/error.h"
+#include "common/files.h"
 #include "image/header.h"
 
 namespace viewcell {
 namespace {
 
-namespace fs = std::filesystem;
 using Names = std::vector<std::string>;
 
 const Names kUp = {"x", "y", "z", "-x", "-y", "-z"};
@@ -63,7 +63,7 @@ void declare_arguments(Tool& tool, UvpatchArguments& a) {
   tool.add_output("OBJ to write, MTL and picture beside it (-: the OBJ alone)");
 }
 
-void finish_arguments(const fs::path& output, UvpatchArguments& a) {
+void finish_arguments(const CommonOptions& common, UvpatchArguments& a) {
   a.patch.n_faces = parse_faces(a.faces);
   const int up = place_of(a.up, kUp);
   a.patch.up = glm::dvec3(0);
@@ -73,9 +73,9 @@ void finish_arguments(const fs::path& output, UvpatchArguments& a) {
   if (a.patch.strength && a.distort != "swirl" && a.distort != "stretch")
     throw UsageError("--strength is for --distort swirl and stretch");
   if (a.n_squares > a.size_px) throw UsageError("--squares is more than --texture-size");
-  if (output != "-" && output.extension() != ".obj") throw UsageError("-o does not end in .obj");
-  std::error_code ignored;  // it need not exist
-  if (fs::equivalent(a.mesh, output, ignored)) throw UsageError("-o is the mesh that is read");
+  check_ending({"-o", common.output}, {".obj"}, "an OBJ");
+  check_files({{"the mesh that is read", a.mesh}, {"the texture that is read", a.texture}},
+              {{"-o", common.output}, {"--json", common.json_file}});
 }
 
 }  // namespace viewcell

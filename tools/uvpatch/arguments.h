@@ -1,7 +1,6 @@
 // What is typed at uvpatch.
 #pragma once
 
-#include <filesystem>
 #include <string>
 
 #include "common/tool.h"
@@ -18,6 +17,6 @@ struct UvpatchArguments {
 void declare_arguments(Tool& tool, UvpatchArguments& arguments);
 
 /// Sets arguments.patch from the words typed. Throws UsageError for what does not fit together.
-void finish_arguments(const std::filesystem::path& output, UvpatchArguments& arguments);
+void finish_arguments(const CommonOptions& common, UvpatchArguments& arguments);
 
 }  // namespace viewcell

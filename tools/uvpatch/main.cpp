@@ -19,10 +19,10 @@ namespace viewcell {
 namespace {
 
 namespace fs = std::filesystem;
-void write_files(const Tool& tool, const UvpatchArguments& a, const std::string& picture,
-                 const TexturedPatch& patch) {
+void write_files(const Tool& tool, const UvpatchArguments& a, const std::string& mesh_hash,
+                 const std::string& picture, const TexturedPatch& patch) {
   const fs::path output = tool.common().output;
-  Json inputs = {{"mesh", hash_file(a.mesh)}};
+  Json inputs = {{"mesh", mesh_hash}};
   if (!picture.empty()) inputs["texture"] = hash_hex(picture);
   const Json options = {{"faces", a.faces},       {"around", patch.around},
                         {"distort", a.distort},   {"strength", patch.strength},
@@ -51,14 +51,15 @@ Json format_report(const TexturedPatch& patch) {
 }
 
 int run(const Tool& tool, UvpatchArguments& a) {
-  finish_arguments(tool.common().output, a);
+  finish_arguments(tool.common(), a);
   std::string picture;
   if (!a.texture.empty()) {
     read_image_rgba8(a.texture);  // throws when it is no picture
     picture = read_file(a.texture);
   }
-  const TexturedPatch patch = make_textured_patch(read_mesh(a.mesh), a.patch, a.mesh);
-  write_files(tool, a, picture, patch);
+  std::string hash;
+  const TexturedPatch patch = make_textured_patch(read_mesh(a.mesh, &hash), a.patch, a.mesh);
+  write_files(tool, a, hash, picture, patch);
   tool.report(format_report(patch));
   if (patch.strength != patch.strength_asked)
     tool.say("strength lowered from " + format_fixed(patch.strength_asked, 3, "") + " to " +

@@ -1,0 +1,176 @@
+#include "pmesh/arguments.h"
+
+#include <charconv>
+#include <cmath>
+
+#include "base/error.h"
+#include "common/files.h"
+
+namespace viewcell {
+namespace {
+
+constexpr std::uint64_t kMostFaces = 4'000'000'000;
+
+void declare_build(CLI::App& app, PmeshArguments& a) {
+  CLI::App& build = *app.add_subcommand("build", "collapse a mesh and keep every step");
+  build.add_option("MODEL", a.model, "mesh: OBJ, PLY, OFF, STL, glTF, 3DS")->required();
+  build
+      .add_option("--metric", a.metric,
+                  "qem3: quadrics; qem5: of position and texture; aps: texture deviation; mapping: "
+                  "cell by cell [Chen06]; lt: "
+                  "Lindstrom-Turk, memoryless")
+      ->capture_default_str();
+  build.add_option("--placement", a.placement,
+                   "half: a vertex goes to its neighbour; full: both to the best place (not "
+                   "for aps; default: half, for lt full)");
+  build
+      .add_option("--error", a.error,
+                  "aps, mapping: total, from the input, or incremental, from the step before")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"total", "incremental"}));
+  build
+      .add_option("--measure", a.measure,
+                  "mapping: max, of distances, or mean, of their squares over the surface")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"max", "mean"}));
+  build.add_option("--stop-at", a.stop_at,
+                   "a whole number: faces; a number with a point (0.5, 1.e-3): the metric's cost, "
+                   "in units of the mesh. A bound of the distance for aps, and for mapping with "
+                   "--error total and --measure max; for others it is none: see --bounded "
+                   "(default: as far as it goes)");
+  build.add_flag("--unweighted", a.unweighted,
+                 "qem3, qem5: every plane counts alike, whatever its area");
+  build.add_flag("--mean", a.mean, "qem3, qem5: the mean of squared distances, not their sum");
+  build
+      .add_option("--boundary-weight", a.build.qem.boundary_weight,
+                  "qem3, qem5: of boundary planes")
+      ->capture_default_str()
+      ->check(within(0, 1e6));
+  build
+      .add_option("--texture-weight", a.build.texture_weight,
+                  "qem5: of a length in the texture, once its area is scaled to the surface's")
+      ->capture_default_str()
+      ->check(within(0, 1e6));
+  build
+      .add_option("--bounded", a.build.error_bound,
+                  "refuse what could bring a point farther than this from the other surface, in "
+                  "units of the mesh")
+      ->check(within(1e-30, 1e30));
+  build.add_flag("--track-error", a.build.track_error,
+                 "keep a bound of the distance for every level, under any metric (aps, mapping "
+                 "and --bounded have it)");
+  build.add_flag("--no-folds", a.build.refuse_folds,
+                 "refuse what turns a triangle over in the texture (qem5, aps, mapping do)");
+  build.add_flag("--no-texture", a.no_texture,
+                 "leave texture coordinates out: charts then hold nothing back");
+  build.add_flag("--exact", a.exact, "look at every changed cost at once, not when it comes up");
+}
+
+[[noreturn]] void refuse_stop(const std::string& text) {
+  throw UsageError("--stop-at '" + text +
+                   "' is neither a whole number of faces from 1 (500) nor a cost above 0 with a "
+                   "point (0.5, 1.e-3)");
+}
+
+// Digits alone are faces; what has a point, and perhaps an exponent, is a cost.
+void set_stop(const std::string& text, PmeshArguments& a) {
+  if (text.find_first_not_of("0123456789") == std::string::npos) {
+    if (!parse_whole(text, 1, kMostFaces, a.build.target_faces)) refuse_stop(text);
+    a.stops_at_faces = true;
+    return;
+  }
+  const std::size_t exponent = text.find_first_of("eE");
+  const char* end = text.data() + text.size();
+  float& cost = a.build.max_cost;
+  if (text.find_first_not_of("0123456789.") < exponent ||
+      text.substr(0, exponent).find('.') == std::string::npos ||
+      std::from_chars(text.data(), end, cost) != std::from_chars_result{end, std::errc()} ||
+      !std::isfinite(cost) || !(cost > 0))
+    refuse_stop(text);
+}
+
+// Options that do nothing under the metric chosen were meant for another.
+void check_metric_options(const CLI::App& build, const PmeshArguments& a) {
+  const auto only = [&](const char* option, bool fits, const char* metrics) {
+    if (build.count(option) > 0 && !fits)
+      throw UsageError(std::string(option) + " does nothing under --metric " + a.metric +
+                       ": it is for " + metrics);
+  };
+  const MetricKind metric = a.build.metric;
+  const bool is_quadric = metric == MetricKind::qem3 || metric == MetricKind::qem5;
+  only("--error", metric == MetricKind::aps || metric == MetricKind::mapping, "aps and mapping");
+  only("--measure", metric == MetricKind::mapping, "mapping");
+  for (const char* option : {"--unweighted", "--mean", "--boundary-weight"})
+    only(option, is_quadric, "qem3 and qem5");
+  only("--texture-weight", metric == MetricKind::qem5, "qem5");
+}
+
+void check_texture_options(const PmeshArguments& a) {
+  if (!a.no_texture) return;
+  if (a.build.refuse_folds)
+    throw UsageError("--no-folds looks at the texture that --no-texture leaves out");
+  const bool is_full = a.build.placement == Placement::full;
+  if (needs_texture(a.build.metric) && !(a.build.metric == MetricKind::mapping && is_full))
+    throw UsageError("--metric " + a.metric +
+                     " needs the texture coordinates that --no-texture leaves out" +
+                     (a.build.metric == MetricKind::mapping ? "; --placement full does not" : ""));
+}
+
+}  // namespace
+
+void declare_arguments(Tool& tool, PmeshArguments& a) {
+  CLI::App& app = tool.app();
+  app.require_subcommand(1);
+  app.fallthrough();
+  declare_build(app, a);
+  CLI::App& extract = *app.add_subcommand("extract", "take a mesh of some size out of a .pm");
+  extract.add_option("PM", a.pm, "progressive mesh")->required();
+  CLI::Option* faces =
+      extract.add_option("--faces", a.n_faces, "the finest level of at most so many faces")
+          ->check(whole_within(1, kMostFaces));
+  extract
+      .add_option("--within", a.within,
+                  "the coarsest level that is surely no farther than this from the input, in units "
+                  "of the mesh; for a .pm with bounds (see build --track-error)")
+      ->check(within(0, 1e30))
+      ->excludes(faces);
+  CLI::App& info = *app.add_subcommand("info", "say what a .pm holds");
+  info.add_option("PM", a.pm, "progressive mesh")->required();
+  tool.add_output("file to write: .pm (build), .ply or .obj (extract); -: standard output", false);
+}
+
+void finish_build(Tool& tool, PmeshArguments& a) {
+  const CommonOptions& common = tool.common();
+  if (common.output.empty()) throw UsageError("build needs -o");
+  BuildOptions& options = a.build;
+  options.metric = parse_metric(a.metric);
+  if (a.placement.empty()) a.placement = options.metric == MetricKind::lt ? "full" : "half";
+  options.placement = parse_placement(a.placement);
+  options.qem.area_weighted = !a.unweighted;
+  options.qem.mean = a.mean;
+  options.lazy = !a.exact;
+  options.total_error = a.error == "total";
+  options.measure = a.measure == "mean" ? Measure::mean : Measure::max;
+  if (a.stop_at) set_stop(*a.stop_at, a);
+  options.name = a.model;
+  check_metric_options(*tool.app().get_subcommand("build"), a);
+  check_texture_options(a);
+  check_ending({"-o", common.output}, {".pm"}, "a progressive mesh");
+  check_files({{"the mesh that is read", a.model}},
+              {{"-o", common.output}, {"--json", common.json_file}});
+}
+
+void check_extract(const Tool& tool, const PmeshArguments& a) {
+  const CommonOptions& common = tool.common();
+  if (common.output.empty()) throw UsageError("extract needs -o");
+  if (!a.n_faces && !a.within) throw UsageError("extract needs --faces or --within");
+  check_ending({"-o", common.output}, {".ply", ".obj"}, "a PLY or an OBJ");
+  check_files({{"the progressive mesh that is read", a.pm}},
+              {{"-o", common.output}, {"--json", common.json_file}});
+}
+
+void check_info(const Tool& tool, const PmeshArguments& a) {
+  check_files({{"the progressive mesh that is read", a.pm}}, {{"--json", tool.common().json_file}});
+}
+
+}  // namespace viewcell

@@ -1,0 +1,30 @@
+// What is typed at pmesh.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "common/tool.h"
+#include "pm/build.h"
+
+namespace viewcell {
+
+struct PmeshArguments {
+  std::string model, metric = "qem3", placement, error = "total", measure = "max", pm;
+  std::optional<std::string> stop_at;
+  bool unweighted = false, mean = false, exact = false, no_texture = false;
+  std::optional<std::size_t> n_faces;  ///< of extract
+  std::optional<double> within;        ///< of extract: mesh units
+  bool stops_at_faces = false;         ///< after finish_build
+  BuildOptions build;                  ///< after finish_build
+};
+
+void declare_arguments(Tool& tool, PmeshArguments& arguments);
+
+/// Sets arguments.build from the words typed at build. Throw UsageError for what does not fit
+/// together, files included.
+void finish_build(Tool& tool, PmeshArguments& arguments);
+void check_extract(const Tool& tool, const PmeshArguments& arguments);
+void check_info(const Tool& tool, const PmeshArguments& arguments);
+
+}  // namespace viewcell
