@@ -14,7 +14,20 @@ expect 0 env JOBS=2 TITLE="A ball" "$scripts/compare-metrics" ball.off 60 out/ba
 [ "$(sed -n '3,$p' out/ball/table.md | cut -d' ' -f2 | tr '\n' ' ')" = "qem3 qem3-full mapping-full mapping-mean-full lt exact " ] ||
   fail "$(cat out/ball/table.md)"
 grep -q '^mapping: needs texture coordinates$' "$log/err" || fail "nothing says why mapping is left out"
-cmp -s out/ball/table.md "$log/out" || fail "the table is not on stdout"
+head -n -1 "$log/out" | cmp -s - out/ball/table.md || fail "the table is not on stdout"
+# Bold is the lowest of a column, and the last line names it.
+awk -F'|' '
+  NR > 2 { for (c = 10; c <= 12; c++) {
+    x = $c; bold = gsub(/\*/, "", x) > 0; x += 0
+    if (!(c in best) || x < best[c]) best[c] = x
+    if (bold) { n[c]++; mark[c] = x }
+  } }
+  END { for (c = 10; c <= 12; c++) if (n[c] < 1 || mark[c] != best[c] || best[c] <= 0) exit 1 }' out/ball/table.md ||
+  fail "bold: $(cat out/ball/table.md)"
+lowest=$(awk -F'|' '$10 ~ /\*/ { gsub(/ /, "", $2); print $2; exit }' out/ball/table.md)
+tail -n 1 "$log/out" | grep -Eq "^lowest maximum: $lowest[a-z, -]*; mean: [a-z]+.*; RMS: [a-z]+" ||
+  fail "no line of the lowest: $(tail -n 1 "$log/out")"
+[ "$(grep -c '^[a-z3-]*: built in [0-9.]* s$' "$log/err")" -eq 6 ] || fail "no progress: $(cat "$log/err")"
 # The curves: three levels each, fewer faces and a larger maximum from each to the next; the last is
 # the table's.
 awk -F, '
@@ -26,7 +39,7 @@ awk -F, '
   END { for (m in n) { k++; if (n[m] != 3) bad = 1 } exit bad || k != 6 }' out/ball/curves.csv ||
   fail "$(cat out/ball/curves.csv)"
 for name in qem3 lt; do
-  max=$(awk -F'|' -v m=" $name " '$2 == m { print $10 + 0 }' out/ball/table.md)
+  max=$(awk -F'|' -v m=" $name " '$2 == m { gsub(/\*/, ""); print $10 + 0 }' out/ball/table.md)
   awk -F, -v m=$name -v max="$max" '$1 == m { last = $3 } END { exit !(max > 1 && (last - max) ^ 2 < 1e-6) }' out/ball/curves.csv ||
     fail "the curve of $name does not end at the table's $max"
 done
@@ -50,13 +63,38 @@ for file in curves.csv histogram.csv curves.svg histogram.svg sheet.png lt.color
   cmp "again/$file" "out/ball/$file" || fail "JOBS changes $file"
 done
 
-# What fails leaves no results that a document would take, not even old ones.
-expect 1 "$scripts/compare-metrics" ball.off 224 again
-grep -q "ball.off has 224 faces, not more than 224" "$log/err" || fail "$(cat "$log/err")"
-expect 1 "$scripts/compare-metrics" missing.off 60 again
-grep -q "missing.off" "$log/err" || fail "$(cat "$log/err")"
-[ ! -e again/table.md ] && [ ! -e again/sheet.png ] || fail "old results stay"
+# A metric that stops early is said, in the sheet, too, and is not the lowest.
+expect 0 "$scripts/compare-metrics" ball.off 60 early "stuck=--stop-at 200"
+grep -q '^stuck: stops at 200 faces$' "$log/err" || fail "nothing says that stuck stops: $(cat "$log/err")"
+grep '^| stuck | 200 ' early/table.md | grep -qv '\*' || fail "stuck is the lowest: $(cat early/table.md)"
+! grep 'lowest' "$log/out" | grep -q stuck || fail "stuck is the lowest"
+
+# What fails leaves earlier results as they were, and makes no folder.
+find again -type f -exec md5sum {} + | sort >before
+touch -d 2001-01-01 again/*
+printf 'OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n' >broken.off
+for out in again new/folder; do
+  expect 1 "$scripts/compare-metrics" ball.off 224 $out
+  grep -q "ball.off has 224 faces, not more than 224" "$log/err" || fail "$(cat "$log/err")"
+  for mesh in missing.off broken.off; do
+    expect 1 "$scripts/compare-metrics" $mesh 60 $out
+    grep -q "$mesh" "$log/err" || fail "$(cat "$log/err")"
+  done
+done
+find again -type f -exec md5sum {} + | sort | cmp -s before - && [ -z "$(find again -type f -newermt 2002-01-01)" ] ||
+  fail "earlier results do not stay"
+[ ! -e new ] || fail "a folder of nothing"
 [ -z "$(find . -name '.tmp-*')" ] || fail "temporaries are left"
+for option in -h --help; do
+  expect 0 "$scripts/compare-metrics" $option
+  grep -q 'scripts/compare-metrics MESH FACES OUT' "$log/out" || fail "$option"
+done
+for metric in "lt=--metric lt" "a b=" "../x=--mean" "=--mean" noequals; do
+  expect 2 "$scripts/compare-metrics" ball.off 60 new "$metric"
+  [ "$(wc -l <"$log/err")" -eq 1 ] || fail "'$metric': $(cat "$log/err")"
+done
+expect 2 "$scripts/compare-metrics" ball.off 60 new "x=--mean" "x=--exact"
+grep -q "two metrics 'x'" "$log/err" || fail "$(cat "$log/err")"
 expect 2 "$scripts/compare-metrics" ball.off 60
 expect 2 "$scripts/compare-metrics" ball.off many again
 expect 2 "$scripts/measure-metrics" .
