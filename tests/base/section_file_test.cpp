@@ -81,10 +81,12 @@ TEST(SectionFile, RefusesAnotherKindAndMissingSections) {
   EXPECT_INPUT_ERROR(reader.read<char>("absent"), "section absent: is missing");
   EXPECT_INPUT_ERROR(reader.read<std::uint64_t>("ids"), "no whole number of records");
   EXPECT_INPUT_ERROR(SectionReader(folder.path() / "absent", kKind), "cannot open");
-  EXPECT_INPUT_ERROR(SectionReader(folder.path(), kKind), "is not a file");
+  EXPECT_INPUT_ERROR(SectionReader(folder.path(), kKind), "not a file");
   EXPECT_INPUT_ERROR(SectionReader(folder.add("empty", ""), kKind), "too short");
   EXPECT_INPUT_ERROR(SectionReader(folder.add("text", std::string(100, 'x')), kKind),
                      "is not a section file");
+  EXPECT_INPUT_ERROR(SectionReader(folder.path() / "text", kKind, "a loaf"), "is not a loaf");
+  EXPECT_INPUT_ERROR(SectionReader(folder.path() / "whole", kKind + 1, "a loaf"), "is not a loaf");
 }
 
 // Padding between sections carries nothing, so a change there reads the same; all else is refused.

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "base/file.h"
 #include "base/srgb.h"
 #include "mesh/cube.h"
 #include "mesh/expect_input_error.h"
@@ -85,11 +86,29 @@ TEST(ReadMesh, TheSameCubeInEveryFormat) {
   EXPECT_EQ(packed.triangles, cube_triangles());
 }
 
+// Without a name that says it, the same mesh and the hash of its bytes.
+TEST(ReadMesh, FormatsAreToldByContent) {
+  const TemporaryFolder folder;
+  std::vector<Sample> all = samples();
+  all.push_back({"c.ply.gz", gzipped(cube_ply()), nullptr});
+  all.push_back({"comment.obj", "# a cube\n" + cube_obj(), parse_obj});
+  for (const Sample& sample : all) {
+    SCOPED_TRACE(sample.name);
+    std::string hash;
+    const TriMesh named = read_mesh(folder.add(sample.name, sample.bytes));
+    const TriMesh mesh = read_mesh(folder.add("nameless", sample.bytes), &hash);
+    EXPECT_EQ(mesh.positions, named.positions);
+    EXPECT_EQ(mesh.triangles, named.triangles);
+    EXPECT_EQ(hash, hash_hex(sample.bytes));
+  }
+}
+
 TEST(ReadMesh, NamesFileAndPlace) {
   const TemporaryFolder folder;
   EXPECT_INPUT_ERROR(read_mesh(folder.path() / "none.ply"), "none.ply: cannot open");
-  EXPECT_INPUT_ERROR(read_mesh(folder.path() / "model.fbx"), ".obj, .ply, .ply.gz, .off, .stl");
-  EXPECT_INPUT_ERROR(read_mesh(folder.path() / "none"), "no known mesh format");
+  EXPECT_INPUT_ERROR(read_mesh(folder.add("model.fbx", "Kaydara")),
+                     ".obj, .ply, .ply.gz, .off, .stl");
+  EXPECT_INPUT_ERROR(read_mesh(folder.add("none", "")), "no known mesh format");
   for (const Sample& sample : samples()) {
     SCOPED_TRACE(sample.name);
     EXPECT_INPUT_ERROR(read_mesh(folder.add(sample.name, "")), sample.name);

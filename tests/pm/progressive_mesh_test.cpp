@@ -141,6 +141,30 @@ TEST(ProgressiveMesh, FacesAreAtMostWhatIsAskedFor) {
   EXPECT_EQ(pm.level(), 0u);
 }
 
+TEST(ProgressiveMesh, TheCoarsestLevelWithinADistance) {
+  const TriMesh sphere = make_noisy_sphere(3, 0.1, 5);
+  BuildOptions tracked;
+  tracked.track_error = true;
+  ProgressiveMesh pm(build_progressive_mesh(sphere, tracked).record);
+  const float base = pm.error();
+  ASSERT_GT(base, 0);
+  Random random(7);
+  for (int i = 0; i < 50; ++i) {
+    const double most = base * random.below(1000) / 1000.0;
+    ASSERT_TRUE(pm.set_error(most));
+    ASSERT_LE(pm.error(), most);
+    ASSERT_GT(pm.level(), 0u);
+    pm.coarsen();
+    ASSERT_GT(pm.error(), most);
+  }
+  EXPECT_TRUE(pm.set_error(base));
+  EXPECT_EQ(pm.level(), 0u);
+  ProgressiveMesh unknown(build_progressive_mesh(sphere, {}).record);
+  unknown.set_level(3);
+  EXPECT_FALSE(unknown.set_error(1e9));
+  EXPECT_EQ(unknown.level(), 3u);
+}
+
 // Charts with straight boundaries stay tiled by their triangles while their corners are there.
 //
 //   +---+---+      each half of the grid is a chart; their common side is x = n / 2
