@@ -45,6 +45,8 @@ fault 1 "outside [0, 1]" "$texadapt" wide.pm patch.png --faces 60 -o x.png
 fault 1 "gone.png" "$texadapt" patch.pm gone.png --faces 60 -o x.png
 fault 2 "faces" "$texadapt" patch.pm patch.png --faces 0 -o x.png
 fault 2 "faces" "$texadapt" patch.pm patch.png -o x.png
+fault 2 "-o" "$texadapt" patch.pm patch.png --faces 60 -o patch.png
+fault 2 "-o" "$texadapt" patch.pm patch.png --faces 60 -o x.jpg
 head -c 500 patch.pm >cut.pm
 fault 1 "cut.pm" "$texadapt" cut.pm patch.png --faces 60 -o x.png
 echo "texadapt.sh: $n_faults faults"

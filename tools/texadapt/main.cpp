@@ -3,6 +3,7 @@
 
 #include "bake/texture_adapt.h"
 #include "base/error.h"
+#include "common/files.h"
 #include "common/provenance.h"
 #include "common/stopwatch.h"
 #include "common/tool.h"
@@ -45,6 +46,12 @@ void check_record(const ProgressiveRecord& record, const std::string& file) {
 }
 
 int run(const Tool& tool, const Arguments& a) {
+  const CommonOptions& common = tool.common();
+  check_files(
+      {{"the progressive mesh that is read", a.pm}, {"the texture that is read", a.texture}},
+      {{"-o", common.output}, {"--mesh", a.mesh}, {"--json", common.json_file}});
+  check_ending({"-o", common.output}, {".png"}, "a PNG");
+  if (!a.mesh.empty()) check_ending({"--mesh", a.mesh}, {".ply"}, "a PLY");
   const ProgressiveRecord record = read_pm(a.pm);
   check_record(record, a.pm);
   const ImageRgba8 texture = read_image_rgba8(a.texture);
