@@ -68,7 +68,7 @@ for kind in off ply obj stl glb gltf 3ds ply.gz; do
   noise 5000 >"p/noise.$kind"
   mesh_fault "noise.$kind" "p/noise.$kind"
 done
-cp park/ball.off p/ball.xyz
+echo "no mesh of any kind" >p/ball.xyz
 mesh_fault ball.xyz p/ball.xyz
 triangle='0 0 0\n1 0 0\n0 1 0\n'
 printf "OFF\n3 1 0\nnan 0 0\n1 0 0\n0 1 0\n3 0 1 2\n" >p/nan.off

@@ -63,5 +63,5 @@ fault 1 "turned.png: is not of the size of the first picture, 20 x 15" "$sheet" 
 fault 1 "missing.png" "$sheet" a.png missing.png -o x.png
 fault 1 "ball.off: is not a PNG" "$sheet" ball.off -o x.png
 fault 3 "no/x.png" "$sheet" a.png -o no/x.png
-[ "$n_faults" -eq 12 ] || fail "$n_faults faults typed"
+[ "$n_faults" -eq 14 ] || fail "$n_faults faults typed"
 echo "contactsheet.sh: all well"

@@ -95,5 +95,5 @@ fault 1 "is a folder" "$plot" . --x a --y b -o x.svg
 
 # The machine's fault.
 fault 3 "no/x.svg" "$plot" curves.csv --x faces --y max -o no/x.svg
-[ "$n_faults" -eq 24 ] || fail "$n_faults faults typed"
+[ "$n_faults" -eq 26 ] || fail "$n_faults faults typed"
 echo "plot.sh: all well"
