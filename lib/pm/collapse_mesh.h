@@ -65,8 +65,8 @@ class CollapseMesh {
   /// Hints that v's triangles are wanted soon: each brings in what the next one reads.
   void fetch_star(std::uint32_t v) const { __builtin_prefetch(&stars_[v]); }
   void fetch_corners(std::uint32_t v) const {
-    __builtin_prefetch(&corners_[stars_[v].first]);
-    __builtin_prefetch(&corners_[stars_[v].first + stars_[v].n]);
+    __builtin_prefetch(corners(v).data());
+    __builtin_prefetch(corners(v).data() + stars_[v].n);
   }
   void fetch_triangles(std::uint32_t v) const {
     for (const std::uint32_t c : corners(v)) __builtin_prefetch(&vertices_[c]);
