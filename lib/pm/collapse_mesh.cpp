@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <utility>
 
 namespace viewcell {
@@ -14,23 +13,6 @@ const char* refusal_name(Refusal refusal) {
 }
 
 namespace {
-
-constexpr std::size_t kLanes = 8;
-constexpr std::uint32_t kNoVertex = 0xffffffffu;
-// Numbers that one instruction compares (of GCC and Clang).
-using Lanes [[gnu::vector_size(kLanes * sizeof(std::uint32_t))]] = std::uint32_t;
-
-// Whether each of the values is among n others exactly once; the values filled up to 8 with
-// kNoVertex.
-bool match_once(const std::uint32_t* values, const std::uint32_t* others, std::size_t n) {
-  Lanes all, n_equal{};
-  std::memcpy(&all, values, sizeof all);
-  for (std::size_t i = 0; i < n; ++i) n_equal -= all == others[i];
-  const Lanes wrong = (n_equal - 1) & (all != kNoVertex);
-  std::uint64_t any[4];
-  std::memcpy(any, &wrong, sizeof any);
-  return (any[0] | any[1] | any[2] | any[3]) == 0;
-}
 
 bool contains(std::span<const std::uint32_t> values, std::uint32_t x) {
   return std::find(values.begin(), values.end(), x) != values.end();
@@ -68,38 +50,19 @@ CollapseMesh::CollapseMesh(std::span<const glm::vec3> positions,
   }
 }
 
-void CollapseMesh::Fan::gather(const CollapseMesh& mesh, std::uint32_t v) {
-  const auto corners = mesh.corners(v);
-  n = corners.size();
-  const std::size_t n_padded = (n + kLanes - 1) / kLanes * kLanes;
-  if (a.size() < n_padded) a.resize(n_padded), b.resize(n_padded);
+void CollapseMesh::gather(std::uint32_t v, Fan& fan) const {
+  fan.resize(stars_[v].n);
   std::size_t i = 0;
-  mesh.for_each_triangle(v, [&](std::uint32_t at_a, std::uint32_t at_b) {
-    a[i] = at_a;
-    b[i++] = at_b;
-  });
-  for (; i < n_padded; ++i) a[i] = b[i] = kNoVertex;
-}
-
-// Whether each a is one b, and each b is one a: then the triangles are fans around v, all wound
-// alike, and every neighbour is one a.
-bool CollapseMesh::Fan::is_closed() const {
-  const auto all_once = [&](const std::vector<std::uint32_t>& x,
-                            const std::vector<std::uint32_t>& y) {
-    for (std::size_t i = 0; i < n; i += kLanes)
-      if (!match_once(&x[i], y.data(), n)) return false;
-    return true;
-  };
-  return all_once(a, b) && all_once(b, a);
+  for_each_triangle(v, [&](std::uint32_t a, std::uint32_t b) { fan.set(i++, a, b); });
 }
 
 void CollapseMesh::ring(std::uint32_t v, std::vector<std::uint32_t>& out) {
-  fan_v_.gather(*this, v);
-  const auto a = fan_v_.all_a(), b = fan_v_.all_b();
+  gather(v, fan_v_);
+  const auto a = fan_v_.a(), b = fan_v_.b();
   out.assign(a.begin(), a.end());
   if (fan_v_.is_closed()) return;
   out.clear();
-  for (std::size_t i = 0; i < fan_v_.n; ++i) {
+  for (std::size_t i = 0; i < a.size(); ++i) {
     if (!contains(out, a[i])) out.push_back(a[i]);
     if (!contains(out, b[i])) out.push_back(b[i]);
   }
@@ -107,7 +70,7 @@ void CollapseMesh::ring(std::uint32_t v, std::vector<std::uint32_t>& out) {
 
 Refusal CollapseMesh::check(std::uint32_t u, std::uint32_t v, float min_cosine) {
   bool is_boundary_edge = false;
-  fan_u_.gather(*this, u);
+  gather(u, fan_u_);
   if (!keeps_topology(fan_u_, u, v, is_boundary_edge)) return Refusal::link;
   if (!is_boundary_edge && fan_u_.has_odd_edge()) return Refusal::boundary;
   return check_move(fan_u_, u, v, positions_[v], min_cosine);
@@ -116,8 +79,8 @@ Refusal CollapseMesh::check(std::uint32_t u, std::uint32_t v, float min_cosine) 
 Refusal CollapseMesh::check(std::uint32_t u, std::uint32_t v, const glm::vec3& place,
                             float min_cosine) {
   bool is_boundary_edge = false;
-  fan_u_.gather(*this, u);
-  fan_v_.gather(*this, v);
+  gather(u, fan_u_);
+  gather(v, fan_v_);
   if (!keeps_topology(fan_u_, u, v, is_boundary_edge)) return Refusal::link;
   if (!is_boundary_edge && fan_u_.has_odd_edge() && fan_v_.has_odd_edge()) return Refusal::boundary;
   const Refusal refusal = check_move(fan_u_, u, v, place, min_cosine);
@@ -130,20 +93,22 @@ Refusal CollapseMesh::check(std::uint32_t u, std::uint32_t v, const glm::vec3& p
 // triangle of their own, as in a tetrahedron.)
 bool CollapseMesh::keeps_topology(const Fan& of_u, std::uint32_t u, std::uint32_t v,
                                   bool& is_boundary_edge) {
+  const auto around_a = of_u.a(), around_b = of_u.b();
   std::uint64_t around_u = 0;  // most vertices around v are not among these bits
   opposite_.clear();
-  for (std::size_t i = 0; i < of_u.n; ++i) {
-    around_u |= bit_of(of_u.a[i]) | bit_of(of_u.b[i]);
-    if (of_u.a[i] == v) opposite_.push_back(of_u.b[i]);
-    if (of_u.b[i] == v) opposite_.push_back(of_u.a[i]);
+  for (std::size_t i = 0; i < around_a.size(); ++i) {
+    around_u |= bit_of(around_a[i]) | bit_of(around_b[i]);
+    if (around_a[i] == v) opposite_.push_back(around_b[i]);
+    if (around_b[i] == v) opposite_.push_back(around_a[i]);
   }
   const auto joins_wrongly = [&](std::uint32_t w) {  // joined to both, but no triangle u v w
     return (around_u & bit_of(w)) && w != u && !contains(opposite_, w) &&
-           (contains(of_u.all_a(), w) || contains(of_u.all_b(), w));
+           (contains(around_a, w) || contains(around_b, w));
   };
   const auto is_triangle_of_u = [&](std::uint32_t a, std::uint32_t b) {
-    for (std::size_t i = 0; i < of_u.n; ++i)
-      if ((of_u.a[i] == a && of_u.b[i] == b) || (of_u.a[i] == b && of_u.b[i] == a)) return true;
+    for (std::size_t i = 0; i < around_a.size(); ++i)
+      if ((around_a[i] == a && around_b[i] == b) || (around_a[i] == b && around_b[i] == a))
+        return true;
     return false;
   };
   int n_shared = 0;
@@ -160,30 +125,18 @@ bool CollapseMesh::keeps_topology(const Fan& of_u, std::uint32_t u, std::uint32_
 }
 
 bool CollapseMesh::is_on_boundary(std::uint32_t v) {
-  fan_v_.gather(*this, v);
+  gather(v, fan_v_);
   return fan_v_.has_odd_edge();
-}
-
-// Whether some vertex is met an odd number of times: each triangle (v, a, b) has the edges v-a and
-// v-b, and around an interior vertex every neighbour is met an even number of times.
-bool CollapseMesh::Fan::has_odd_edge() const {
-  if (is_closed()) return false;
-  const auto n_times = [](std::span<const std::uint32_t> values, std::uint32_t x) {
-    return std::count(values.begin(), values.end(), x);
-  };
-  for (std::size_t i = 0; i < n; ++i)
-    for (const std::uint32_t w : {a[i], b[i]})
-      if ((n_times(all_a(), w) + n_times(all_b(), w)) % 2 == 1) return true;
-  return false;
 }
 
 // Of the triangles of `from` without `other`, when it goes to `to`.
 Refusal CollapseMesh::check_move(const Fan& fan, std::uint32_t from, std::uint32_t other,
                                  const glm::vec3& to, float min_cosine) const {
+  const auto around_a = fan.a(), around_b = fan.b();
   const glm::vec3 at = positions_[from];
-  for (std::size_t i = 0; i < fan.n; ++i) {
-    if (fan.a[i] == other || fan.b[i] == other) continue;
-    const glm::vec3 pa = positions_[fan.a[i]], pb = positions_[fan.b[i]];
+  for (std::size_t i = 0; i < around_a.size(); ++i) {
+    if (around_a[i] == other || around_b[i] == other) continue;
+    const glm::vec3 pa = positions_[around_a[i]], pb = positions_[around_b[i]];
     const glm::vec3 before = glm::cross(pa - at, pb - at);
     const glm::vec3 after = glm::cross(pa - to, pb - to);
     // no area, or next to none for its longest edge (a needle shows as a crack): height < 1e-3 edge

@@ -9,6 +9,7 @@
 
 #include "base/large_vector.h"
 #include "mesh/mesh.h"
+#include "pm/fan.h"
 
 namespace viewcell {
 
@@ -55,7 +56,6 @@ class CollapseMesh {
       visit(vertices_[c + 1 - 3 * (k == 2)], vertices_[c - 1 + 3 * (k == 0)]);
     }
   }
-
   /// Calls visit(corner) for every corner of v.
   template <typename Visit>
   void for_each_corner(std::uint32_t v, Visit&& visit) const {
@@ -89,21 +89,10 @@ class CollapseMesh {
   void collapse(std::uint32_t u, std::uint32_t v, CollapseTrace* trace = nullptr);
   /// Whether some edge of v has exactly one triangle. Not thread-safe.
   bool is_on_boundary(std::uint32_t v);
-
   /// The live triangles, in the order of the input.
   std::vector<Triangle> triangles() const;
 
  private:
-  // The triangles (v, a[i], b[i]) of a vertex.
-  struct Fan {
-    std::size_t n = 0;
-    std::vector<std::uint32_t> a, b;  // n of them, and more to fill whole vectors
-    void gather(const CollapseMesh& mesh, std::uint32_t v);
-    bool is_closed() const;
-    bool has_odd_edge() const;
-    std::span<const std::uint32_t> all_a() const { return {a.data(), n}; }
-    std::span<const std::uint32_t> all_b() const { return {b.data(), n}; }
-  };
   // Where the corners of a vertex stand.
   struct Star {
     std::uint32_t first = 0, n = 0;
@@ -111,6 +100,7 @@ class CollapseMesh {
   std::span<const std::uint32_t> corners(std::uint32_t v) const {
     return {corners_.data() + stars_[v].first, stars_[v].n};
   }
+  void gather(std::uint32_t v, Fan& fan) const;
   void unlink(std::uint32_t v, std::uint32_t corner);
   void make_room(std::size_t n);
   bool keeps_topology(const Fan& of_u, std::uint32_t u, std::uint32_t v, bool& is_boundary_edge);
