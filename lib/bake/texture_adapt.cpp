@@ -21,7 +21,8 @@ double cross_row(glm::dvec2 a, glm::dvec2 b, double y) {
 // that share an edge share no texel and leave none out.
 template <typename Visit>
 void for_each_span(const std::array<glm::dvec2, 3>& p, int width_px, int height_px, Visit&& visit) {
-  const double top = std::min({p[0].y, p[1].y, p[2].y}), bottom = std::max({p[0].y, p[1].y, p[2].y});
+  const double top = std::min({p[0].y, p[1].y, p[2].y}),
+               bottom = std::max({p[0].y, p[1].y, p[2].y});
   const int first = std::max(0, static_cast<int>(std::ceil(top)));
   const int last = std::min<double>(height_px, std::ceil(bottom));
   for (int y = first; y < last; ++y) {
@@ -86,7 +87,8 @@ void TextureAdapter::adapt(IndexMap& map, std::span<const TexturePair> pairs, bo
   for (const TexturePair& pair : pairs) {
     std::array<glm::dvec2, 3> from, to;
     for (std::size_t k = 0; k < 3; ++k) {
-      from[k] = to_texels(is_collapse ? pair.before[k] : pair.after[k], map.width_px, map.height_px);
+      from[k] =
+          to_texels(is_collapse ? pair.before[k] : pair.after[k], map.width_px, map.height_px);
       to[k] = to_texels(is_collapse ? pair.after[k] : pair.before[k], map.width_px, map.height_px);
     }
     const Affine source = make_affine(to, from);

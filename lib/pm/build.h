@@ -56,8 +56,8 @@ struct BuildResult {
 };
 
 /// Throws InputError when the metric needs what the mesh has not, UsageError for a metric that has
-/// no such placement. Costs are in the mesh's units. Memory: with the mesh and the record 250 to 290
-/// bytes a face at most, 400 for qem5.
+/// no such placement. Costs are in the mesh's units. Memory: with the mesh and the record 250 to
+/// 290 bytes a face at most, 400 for qem5.
 BuildResult build_progressive_mesh(const TriMesh& mesh, const BuildOptions& options,
                                    const Progress& progress = {});
 
