@@ -16,6 +16,8 @@ struct Finest {
 };
 
 Finest make_finest(const ProgressiveRecord& record) {
+  ProgressiveMesh mesh(record);
+  mesh.set_level(mesh.n_splits());
   Finest out;
   out.wedges.positions.assign(record.attributes.positions.begin(),
                               record.attributes.positions.end());
@@ -23,15 +25,7 @@ Finest make_finest(const ProgressiveRecord& record) {
   const std::size_t n = record.attributes.positions.size();
   for (std::size_t w = 0; w < record.texcoords.size(); ++w)
     out.wedges.wedge_vertex.push_back(record.vertex_of[w < n ? w : record.extra_sources[w - n]]);
-  out.wedges.faces = record.faces;
-  std::size_t at_moved = 0, at_pair = 0;
-  for (const VertexSplit& split : record.splits) {
-    for (std::size_t i = at_moved; i < at_moved + split.n_moved; ++i) {
-      const std::uint32_t corner = record.moved[i];
-      out.wedges.faces[corner / 3][corner % 3] = record.pairs[at_pair + record.moved_by[i]].child;
-    }
-    at_moved += split.n_moved, at_pair += split.n_pairs;
-  }
+  out.wedges.faces = mesh.record().faces;
   out.triangles = out.wedges.vertex_triangles();
   return out;
 }

@@ -42,6 +42,7 @@ inline Refusal as_refusal(Refusal refusal) {
 /// - float cost(u, v): of collapsing u into v, +infinity for never;
 /// - float cost_at_least(u, v), if there is one: something cheaper that cost(u, v) is not below;
 /// - bool or Refusal allows(mesh, u, v): a last check before the collapse is made;
+/// - void fetch(v), if there is one: brings what cost() reads of v into the cache;
 /// - void traced(u, v, trace), if there is one: told what happened to the triangles;
 /// - void collapsed(u, v): told after it.
 /// For full-edge collapses:

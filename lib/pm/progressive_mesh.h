@@ -70,6 +70,9 @@ class ProgressiveMesh {
   /// it is not known.
   float error() const;
 
+  /// Its faces, positions and texture coordinates are those of this level.
+  const ProgressiveRecord& record() const { return record_; }
+
   void refine();   ///< level() < n_splits()
   void coarsen();  ///< level() > 0
   /// The finest level of at most n faces, or the base.
