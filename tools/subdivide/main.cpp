@@ -1,0 +1,96 @@
+// subdivide: a mesh with four triangles for each, and a smoother surface.
+#include "mesh/subdivide.h"
+
+#include <algorithm>
+#include <string>
+
+#include "base/error.h"
+#include "common/files.h"
+#include "common/provenance.h"
+#include "common/tool.h"
+#include "mesh/io.h"
+#include "mesh/uv_stretch.h"
+
+namespace viewcell {
+namespace {
+
+struct Arguments {
+  std::string mesh;
+  std::string scheme = "loop", texcoords = "inside";
+  SubdivideOptions options;
+};
+
+const std::vector<std::string> kSchemes = {"loop", "midpoint"};              // SubdivisionScheme
+const std::vector<std::string> kTexcoords = {"smooth", "inside", "linear"};  // TexcoordRule
+
+void declare(Tool& tool, Arguments& a) {
+  CLI::App& app = tool.app();
+  app.add_option("MESH", a.mesh, "OBJ, PLY (.gz), OFF, STL, GLB, glTF or 3DS")->required();
+  app.add_option("--times", a.options.n_times, "how often; each makes four triangles of one")
+      ->required()
+      ->check(whole_within(0, 13));
+  app.add_option("--scheme", a.scheme, "loop: smooth | midpoint: the same surface")
+      ->capture_default_str()
+      ->check(CLI::IsMember(kSchemes));
+  app.add_option("--texcoords", a.texcoords,
+                 "texture coordinates of loop: smooth, outlines of charts too | inside: smooth, "
+                 "outlines stay | linear: on each triangle as before")
+      ->capture_default_str()
+      ->check(CLI::IsMember(kTexcoords));
+  tool.add_output("mesh to write: .obj or .ply (-: an OBJ)");
+}
+
+int place_of(const std::string& name, const std::vector<std::string>& names) {
+  return static_cast<int>(std::find(names.begin(), names.end(), name) - names.begin());
+}
+
+bool is_ply(std::string file) {
+  for (char& c : file) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return file.ends_with(".ply");
+}
+
+int run(const Tool& tool, Arguments& a) {
+  const std::string& output = tool.common().output;
+  check_ending({"-o", output}, {".obj", ".ply"}, "an OBJ or a PLY");
+  check_files({{"the mesh that is read", a.mesh}},
+              {{"-o", output}, {"--json", tool.common().json_file}});
+  a.options.scheme = static_cast<SubdivisionScheme>(place_of(a.scheme, kSchemes));
+  a.options.texcoords = static_cast<TexcoordRule>(place_of(a.texcoords, kTexcoords));
+  std::string hash;
+  const TriMesh mesh = read_mesh(a.mesh, &hash);
+  const Subdivision out = subdivide(mesh, a.options, a.mesh);
+  const Json options = {
+      {"times", a.options.n_times}, {"scheme", a.scheme}, {"texcoords", a.texcoords}};
+  const std::vector<std::string> comments = {
+      make_provenance(tool, options, {{"mesh", hash}}).dump()};
+  if (is_ply(output))
+    write_ply(output, out.mesh, comments);
+  else
+    write_obj(output, out.mesh, {comments, "", ""});
+  Json report = {{"faces_in", mesh.triangles.size()},
+                 {"faces", out.mesh.triangles.size()},
+                 {"vertices", out.mesh.positions.size()},
+                 {"welded", out.n_welded},
+                 {"dropped", out.n_dropped}};
+  if (!mesh.texcoords.empty())
+    report["flipped"] = {{"before", measure_uv_stretch(mesh).n_flipped},
+                         {"after", measure_uv_stretch(out.mesh).n_flipped}};
+  tool.report(report);
+  tool.say(std::to_string(out.mesh.triangles.size()) + " triangles, " +
+           std::to_string(out.mesh.positions.size()) + " vertices");
+  return 0;
+}
+
+}  // namespace
+}  // namespace viewcell
+
+int main(int argc, char** argv) {
+  viewcell::Tool tool(
+      "subdivide",
+      "Makes four triangles of each, as often as asked, on a smoother surface [Loop "
+      "1987] or on the same; texture coordinates go with it.",
+      "subdivide spot.obj --times 2 -o spot-fine.obj");
+  viewcell::Arguments arguments;
+  viewcell::declare(tool, arguments);
+  return tool.main(argc, argv, [&] { return viewcell::run(tool, arguments); });
+}
