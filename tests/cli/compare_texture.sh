@@ -5,7 +5,7 @@ set -euo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
 scripts=$(cd "$(dirname "${BASH_SOURCE[0]}")/../../scripts" && pwd)
 start "$1"
-export BIN=$bin VIEWS=3 SIZE=64 ROWS=2
+export BIN=$bin VIEWS=2 SIZE=64 ROWS=2
 ball 6 1 >ball.off
 expect 0 "$bin/uvpatch" ball.off --faces 90 --texture-size 64 -o a.obj -q
 expect 0 "$bin/uvpatch" ball.off --faces 60 --texture-size 64 --squares 2 -o b.obj -q
@@ -25,29 +25,27 @@ for name in other part; do
     'BEGIN { exit !(least <= all && worst <= covered && covered < all && all < 60 && worst > 0) }' || fail "$name"
 done
 [ "$(ls -A out | tr '\n' ' ')" = "sheet.png table.md " ] || fail "$(ls -A out)"
-"$bin/psnr" out/sheet.png out/sheet.png --no-ssim --json - -q -o "$log/x" >"$log/sheet"
-width=$(sed -n 's/.*"width_px": \([0-9]*\).*/\1/p' "$log/sheet" | head -1)
+width=$((0x$(od -An -tx1 -j16 -N4 out/sheet.png | tr -d ' ')))
 [ "$width" -gt $((5 * 32)) ] || fail "a sheet of $width px"
 # The numbers are those of the tools.
 for m in a b; do
-  expect 0 "$bin/meshshot" $m.obj --texture a.png --unlit --views 3 --size 64 --like a.obj --no-sheet -q -o $m
+  expect 0 "$bin/meshshot" $m.obj --texture a.png --unlit --views 2 --size 64 --like a.obj --no-sheet -q -o $m
 done
 expect 0 "$bin/psnr" a b --no-ssim
 mean=$(awk '$1 == "mean" { printf "%.2f %.2f", $2, $3 }' "$log/out")
 [ "$mean" = "$(column part 4) $(column part 6)" ] || fail "$mean is not $(grep part out/table.md)"
 
-# The same bytes; all or nothing.
+# The same numbers again; all or nothing.
 cp -rp out before
-expect 0 "$compare" a.obj a.png out 90 same=a.obj other=a.obj:b.png part=b.obj:a.png fine=fine.obj
-for f in table.md sheet.png; do cmp out/$f before/$f || fail "$f is not the same twice"; done
-for bad in missing.obj ball.off a.obj:ball.off; do
+expect 0 "$compare" a.obj a.png few 10 part=b.obj:a.png
+[ "$(tail -n 1 few/table.md)" = "$(grep part out/table.md)" ] || fail "another row: $(cat few/table.md)"
+grep -q 'none, for all have more faces' "$log/out" || fail "$(cat "$log/out")"
+for bad in missing.obj a.obj:ball.off; do
   expect 1 "$compare" a.obj a.png out 90 bad=$bad
   for f in table.md sheet.png; do cmp -s out/$f before/$f || fail "$bad changes $f"; done
 done
-expect 1 "$compare" a.obj missing.png new 90 a=a.obj
+expect 1 "$compare" a.obj missing.png new 90 a=a.obj  # at once
 [ ! -e new ] && [ -z "$(find . -name '.tmp-*')" ] || fail "left over: $(ls -A)"
-expect 0 "$compare" a.obj a.png few 10 same=a.obj
-grep -q 'none, for all have more faces' "$log/out" || fail "$(cat "$log/out")"
 expect 0 "$compare" --help
 grep -q 'scripts/compare-texture ORIGINAL TEXTURE OUT FACES' "$log/out" || fail "--help"
 for bad in a.obj =a.obj x= x=: ../x=a.obj original=a.obj; do
@@ -148,20 +146,16 @@ grep -qx 'f 1/1 2/2 3/3' t.obj && grep -qx 'v 2 1 1' t.obj || fail "$(cat t.obj)
 grep -q 'strip.obj: 1 faces were asked for, it stops at 2' "$log/err" || fail "$(cat "$log/err")"
 bad_obj() { printf "$1" >bad.obj; fault 1 "bad.obj: $2" "$simplify" bad.obj --faces 1 -o x.obj; }
 bad_obj 'v 0 0\n' 'line 1: are not 3 numbers'
-bad_obj 'v 0 0 nan\n' 'line 1'
 bad_obj 'v 0 0 0\nvt 0 0\nf 1/1 1/1 2/1\n' "line 3: '2' is no index"
-bad_obj 'v 0 0 0\nvt 0 0\nf 1/1 1/1 -2/1\n' "line 3: '-2'"
 bad_obj 'v 0 0 0\nvt 0 0\nf 1/1 1/1 1\n' "line 3: a corner has no texture coordinate"
 bad_obj 'v 0 0 0\nvt 0 0\nf 1/1 1/1\n' "line 3: a face has fewer"
 bad_obj 'v 0 0 0\n' "has no faces"
 fault 1 "missing.obj: cannot be read" "$simplify" missing.obj --faces 1 -o x.obj
 fault 3 "cannot write no/x.obj" "$simplify" strip.obj --faces 5 -o no/x.obj
-for words in "--faces 0" "--faces many" "--faces 9 --weight nan" "--faces 9 --weight -1" "--faces 9 --flags All" "" \
-  "--faces 9 --protect" "--faces 9 --hurry" "--faces 9 b.obj" "--faces"; do
+for words in "--faces 0" "--faces 9 --weight nan" "--faces 9 --flags All" "" "--faces 9 --protect" "--faces 9 b.obj"; do
   # shellcheck disable=SC2086  # words
   fault 2 "scripts/meshopt-simplify --help" "$simplify" strip.obj -o x.obj $words
 done
-fault 2 "-o is missing" "$simplify" strip.obj --faces 9
 if command -v npm >/dev/null; then  # a copy of the scripts, and nobody at the registry's address
   unset MESHOPTIMIZER
   mkdir copy copy/scripts
