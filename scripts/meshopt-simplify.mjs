@@ -27,7 +27,7 @@ function parseFlags(text) {
 }
 
 function parseArguments(words) {
-  const out = { weight: 1, flags: [], protect: false, update: false, quiet: false };
+  const out = { weight: 10, flags: [], protect: false, update: false, quiet: false };
   const taking = {
     '--faces': (text) => (out.faces = parseNumber('--faces', text, (x) => Number.isInteger(x) && x > 0)),
     '--weight': (text) => (out.weight = parseNumber('--weight', text, (x) => x >= 0 && x <= 1e6)),

@@ -115,7 +115,7 @@ f 4/4/1 1/9/1 2/2/1
 OBJ
 expect 0 "$simplify" strip.obj --faces 5 -o s.obj
 cat >wanted.obj <<'OBJ'
-# meshoptimizer 9.8.7 simplifyWithAttributes weight 1 flags none, 5 faces asked
+# meshoptimizer 9.8.7 simplifyWithAttributes weight 10 flags none, 5 faces asked
 v 0 0 0
 v 1 0 0
 v 1 1 0
@@ -137,7 +137,7 @@ f 3/8 2/5 6/7
 f 4/4 1/1 2/2
 OBJ
 cmp s.obj wanted.obj || fail "$(diff s.obj wanted.obj)"
-[ "$(cat "$CALL")" = 'attributes 8 8 1,1 free 15' ] || fail "$(cat "$CALL")"
+[ "$(cat "$CALL")" = 'attributes 8 8 10,10 free 15' ] || fail "$(cat "$CALL")"
 grep -qx 'meshopt-simplify: 5 faces, error 0.5000' "$log/err" || fail "no summary"
 expect 0 "$simplify" strip.obj --faces 2 --weight 0.5 --flags Permissive,Prune --protect -o t.obj -q
 [ "$(cat "$CALL")" = 'attributes 8 8 0.5,0.5 02202002 6 Permissive Prune' ] || fail "$(cat "$CALL")"

@@ -14,6 +14,7 @@
 #include "mesh/io.h"
 #include "mesh/repair.h"
 #include "mesh/surfaces.h"
+#include "mesh/texcoord_drift.h"
 #include "mesh/uv_stretch.h"
 
 namespace viewcell {
@@ -239,6 +240,27 @@ TEST(Subdivide, TexcoordsInsideACharts) {
   EXPECT_EQ(middle(TexcoordRule::inside), glm::vec2(0.65625f, 0.5f));
   EXPECT_EQ(middle(TexcoordRule::smooth), glm::vec2(0.65625f, 0.5f));
   EXPECT_EQ(middle(TexcoordRule::linear), glm::vec2(0.75f, 0.5f));
+}
+
+// Texture coordinates shifted by (3, 4) hundredths on one of two charts, whose outlines meet.
+TEST(TexcoordDrift, ByHand) {
+  TriMesh mesh = make_grid(2);
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    for (const std::uint32_t v : mesh.triangles[t])
+      mesh.texcoords.push_back(glm::vec2(mesh.positions[v]) + glm::vec2(t < 4 ? 0 : 2, 0));
+  TriMesh fine = subdivide(mesh, make_options(2, SubdivisionScheme::midpoint)).mesh;
+  TexcoordDrift drift = measure_texcoord_drift(mesh, fine);
+  EXPECT_NEAR(drift.max, 0, 1e-6);
+  EXPECT_EQ(drift.n_compared, fine.triangles.size());
+  for (std::size_t c = 0; c < fine.texcoords.size() / 2; ++c)
+    fine.texcoords[c] += glm::vec2(0.03f, 0.04f);
+  drift = measure_texcoord_drift(mesh, fine);
+  EXPECT_NEAR(drift.max, 0.05, 1e-6);
+  EXPECT_NEAR(drift.rms, 0.05 * std::sqrt(0.5), 1e-6);
+  for (glm::vec3& p : fine.positions) p.y = 1 - p.y;  // each half lies on the other chart
+  drift = measure_texcoord_drift(mesh, fine);
+  EXPECT_EQ(drift.n_compared, 0u);
+  EXPECT_EQ(drift.n_elsewhere, fine.triangles.size());
 }
 
 TEST(Subdivide, MidpointsKeepTheSurfaceAndTheTexture) {

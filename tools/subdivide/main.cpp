@@ -9,6 +9,7 @@
 #include "common/provenance.h"
 #include "common/tool.h"
 #include "mesh/io.h"
+#include "mesh/texcoord_drift.h"
 #include "mesh/uv_stretch.h"
 
 namespace viewcell {
@@ -49,6 +50,27 @@ bool is_ply(std::string file) {
   return file.ends_with(".ply");
 }
 
+Json format_report(const Tool& tool, const Arguments& a, const TriMesh& mesh,
+                   const Subdivision& out) {
+  Json report = {{"faces_in", mesh.triangles.size()},
+                 {"faces", out.mesh.triangles.size()},
+                 {"vertices", out.mesh.positions.size()},
+                 {"welded", out.n_welded},
+                 {"dropped", out.n_dropped}};
+  if (mesh.texcoords.empty()) return report;
+  SubdivideOptions none = a.options;
+  none.n_times = 0;
+  const TriMesh before = subdivide(mesh, none, a.mesh).mesh;
+  const TexcoordDrift drift = measure_texcoord_drift(before, out.mesh, tool.common().n_threads);
+  report["flipped"] = {{"before", measure_uv_stretch(before).n_flipped},
+                       {"after", measure_uv_stretch(out.mesh).n_flipped}};
+  report["drift"] = {{"rms", drift.rms},
+                     {"max", drift.max},
+                     {"compared", drift.n_compared},
+                     {"elsewhere", drift.n_elsewhere}};
+  return report;
+}
+
 int run(const Tool& tool, Arguments& a) {
   const std::string& output = tool.common().output;
   check_ending({"-o", output}, {".obj", ".ply"}, "an OBJ or a PLY");
@@ -67,15 +89,7 @@ int run(const Tool& tool, Arguments& a) {
     write_ply(output, out.mesh, comments);
   else
     write_obj(output, out.mesh, {comments, "", ""});
-  Json report = {{"faces_in", mesh.triangles.size()},
-                 {"faces", out.mesh.triangles.size()},
-                 {"vertices", out.mesh.positions.size()},
-                 {"welded", out.n_welded},
-                 {"dropped", out.n_dropped}};
-  if (!mesh.texcoords.empty())
-    report["flipped"] = {{"before", measure_uv_stretch(mesh).n_flipped},
-                         {"after", measure_uv_stretch(out.mesh).n_flipped}};
-  tool.report(report);
+  if (!tool.common().json_file.empty()) tool.report(format_report(tool, a, mesh, out));
   tool.say(std::to_string(out.mesh.triangles.size()) + " triangles, " +
            std::to_string(out.mesh.positions.size()) + " vertices");
   return 0;
