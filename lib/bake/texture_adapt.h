@@ -4,13 +4,10 @@
 #include <span>
 #include <vector>
 
-#include "image/image.h"
+#include "image/index_map.h"
 #include "pm/adaptation.h"
 
 namespace viewcell {
-
-/// Each texel holds texture coordinates; v runs up, rows down.
-using IndexMap = Image<glm::vec2>;
 
 /// Every texel holds its own place [Chen06 3.2.4].
 IndexMap make_index_map(int width_px, int height_px);

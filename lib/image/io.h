@@ -2,6 +2,8 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
+#include <string_view>
 
 #include "image/image.h"
 
@@ -17,13 +19,19 @@ namespace viewcell {
 /// alpha, so where alpha is small it comes back coarse, and 0 where alpha is 0.
 ImageRgba8 read_image_rgba8(const std::filesystem::path& file);
 
+/// The same of a file's bytes. name: for errors.
+ImageRgba8 decode_image_rgba8(std::string_view bytes, const std::string& name);
+
 enum class PngAlpha {
   keep,
   drop,  ///< write RGB only: for pictures to look at, whose ground would show as transparent
 };
 
-/// Writes a PNG, whole or not at all ("-": standard output). The same pixels give the same bytes:
-/// no date, no software. Throws MachineError. Safe from many threads at once.
+/// A PNG's bytes. The same pixels give the same bytes: no date, no software. Throws MachineError.
+/// Safe from many threads at once.
+std::string encode_png(const ImageRgba8& image, PngAlpha alpha = PngAlpha::keep);
+
+/// Writes encode_png, whole or not at all ("-": standard output). Throws MachineError.
 void write_png(const std::filesystem::path& file, const ImageRgba8& image,
                PngAlpha alpha = PngAlpha::keep);
 
