@@ -36,6 +36,17 @@ GLuint create_texture(const Gl& gl, GLenum target) {
   return id;
 }
 
+// The size in words. Throws MachineError when a side is beyond the driver's limit.
+std::string check_size(const Gl& gl, int width_px, int height_px) {
+  std::string size = std::to_string(width_px) + " x " + std::to_string(height_px);
+  GLint most_px = 0;
+  gl.GetIntegerv(GL_MAX_TEXTURE_SIZE, &most_px);
+  if (std::max(width_px, height_px) > most_px)
+    throw MachineError("GL: a texture of " + size + " is beyond the driver's " +
+                       std::to_string(most_px));
+  return size;
+}
+
 // Appends the driver's log to the message, on one line.
 std::string one_line(std::string log) {
   while (!log.empty() && (log.back() == '\n' || log.back() == '\0')) log.pop_back();
@@ -95,10 +106,11 @@ GlTexture::GlTexture(const Gl& gl, GLenum target)
     : GlObject(gl, delete_texture, create_texture(gl, target)), target_(target) {}
 
 GlTexture GlTexture::make_2d(const Gl& gl, GLenum internal_format, int width_px, int height_px) {
+  const std::string size = check_size(gl, width_px, height_px);
   GlTexture texture(gl, GL_TEXTURE_2D);
   gl.TextureStorage2D(texture.id(), 1, internal_format, width_px, height_px);
   texture.set_filter(GL_LINEAR);
-  check_gl(gl, "a texture of " + std::to_string(width_px) + " x " + std::to_string(height_px));
+  check_gl(gl, "a texture of " + size);
   return texture;
 }
 
@@ -114,12 +126,7 @@ GlTexture GlTexture::make_2d_array(const Gl& gl, GLenum internal_format, int wid
 
 GlTexture GlTexture::make_mipmapped(const Gl& gl, GLenum internal_format, int width_px,
                                     int height_px, const void* texels) {
-  const std::string size = std::to_string(width_px) + " x " + std::to_string(height_px);
-  GLint most_px = 0;
-  gl.GetIntegerv(GL_MAX_TEXTURE_SIZE, &most_px);
-  if (std::max(width_px, height_px) > most_px)
-    throw MachineError("GL: a texture of " + size + " is beyond the driver's " +
-                       std::to_string(most_px));
+  const std::string size = check_size(gl, width_px, height_px);
   const int n_levels = std::bit_width(static_cast<unsigned>(std::max(width_px, height_px)));
   GlTexture texture(gl, GL_TEXTURE_2D);
   gl.TextureStorage2D(texture.id(), n_levels, internal_format, width_px, height_px);

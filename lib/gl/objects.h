@@ -63,6 +63,7 @@ GlBuffer make_buffer(const Gl& gl, const Range& range, GLbitfield flags = 0) {
 class GlTexture : public GlObject {
  public:
   GlTexture() = default;
+  /// Throws MachineError when a side is beyond the driver's limit, as make_mipmapped does.
   static GlTexture make_2d(const Gl& gl, GLenum internal_format, int width_px, int height_px);
   static GlTexture make_2d_array(const Gl& gl, GLenum internal_format, int width_px, int height_px,
                                  int n_layers);

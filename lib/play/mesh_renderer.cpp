@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "play/contact_sheet.h"
+#include "play/index_map_lookup.h"
 #include "play/shading.h"
 #include "scene/scene.h"
 
@@ -42,6 +43,9 @@ constexpr const char* kTextureColor = R"(
 layout(binding = 0) uniform sampler2D base_texture;
 vec3 surface_color() { return texture(base_texture, surface.xy).rgb; }
 )";
+constexpr const char* kIndexedColor = R"(
+vec3 surface_color() { return indexed_color(surface.xy); }
+)";
 constexpr const char* kVertexColor = R"(
 vec3 surface_color() { return surface; }
 )";
@@ -72,14 +76,22 @@ constexpr const char* kNoWireColor = R"(
 vec3 wire_color(vec3 color) { return color; }
 )";
 
-std::string fragment_source(const MeshStyle& style, bool has_texture) {
+enum class Surface { colors, texture, indexed_texture };
+
+std::string surface_source(Surface surface) {
+  if (surface == Surface::colors) return kVertexColor;
+  if (surface == Surface::texture) return kTextureColor;
+  return index_map_glsl() + kIndexedColor;
+}
+
+std::string fragment_source(const MeshStyle& style, Surface surface) {
   return std::string(
              "#version 450 core\n"
              "layout(location = 0) in vec3 normal;\n"
              "layout(location = 1) in vec3 surface;\n"
              "layout(location = 2) in vec3 corner;\n"
              "layout(location = 0) out vec4 color;\n") +
-         make_shading_glsl(style.lighting) + (has_texture ? kTextureColor : kVertexColor) +
+         make_shading_glsl(style.lighting) + surface_source(surface) +
          (style.lit ? kLitColor : kUnlitColor) + (style.wireframe ? kWireColor : kNoWireColor) +
          "void main() {\n"
          "  color = vec4(srgb_encode(wire_color(lit_color(surface_color()))), 1);\n}\n";
@@ -98,7 +110,10 @@ glm::vec3 flat_normal(const TriMesh& mesh, const Triangle& t) {
 
 glm::vec3 surface_of(const TriMesh& mesh, bool has_texture, const MeshStyle& style, std::size_t t,
                      std::size_t k) {
-  if (has_texture) return {mesh.texcoords[3 * t + k], 0};
+  if (has_texture) {
+    const glm::vec2& uv = mesh.texcoords[3 * t + k];
+    return {uv.x, style.flip_v ? 1 - uv.y : uv.y, 0};
+  }
   return mesh.colors.empty() ? style.base_color : mesh.colors[mesh.triangles[t][k]];
 }
 
@@ -124,15 +139,27 @@ std::vector<Vertex> make_vertices(const TriMesh& mesh, const MeshFrame& frame, b
 }
 
 // An image's first row is the top, a texture's is v = 0.
-GlTexture upload(const Gl& gl, const ImageRgba8& image, bool flip_v) {
-  std::vector<Rgba8> texels;
+template <typename Pixel>
+std::vector<Pixel> rows_upwards(const Image<Pixel>& image) {
+  std::vector<Pixel> texels;
   texels.reserve(image.pixels.size());
-  for (int row = 0; row < image.height_px; ++row) {
-    const Rgba8* first = &image.at(0, flip_v ? row : image.height_px - 1 - row);
+  for (int row = image.height_px; row-- > 0;) {
+    const Pixel* first = &image.at(0, row);
     texels.insert(texels.end(), first, first + image.width_px);
   }
+  return texels;
+}
+
+GlTexture upload(const Gl& gl, const ImageRgba8& image) {
   return GlTexture::make_mipmapped(gl, GL_SRGB8_ALPHA8, image.width_px, image.height_px,
-                                   texels.data());
+                                   rows_upwards(image).data());
+}
+
+GlTexture upload(const Gl& gl, const IndexMap& map) {
+  GlTexture texture = GlTexture::make_2d(gl, GL_RG32F, map.width_px, map.height_px);
+  texture.write(0, 0, 0, map.width_px, map.height_px, GL_RG, GL_FLOAT, rows_upwards(map).data());
+  check_gl(gl, "an indexing map");
+  return texture;
 }
 
 }  // namespace
@@ -149,18 +176,23 @@ NormalSource parse_normal_source(const std::string& name) {
 }
 
 MeshRenderer::MeshRenderer(const Gl& gl, const TriMesh& mesh, const MeshFrame& frame,
-                           const ImageRgba8* texture, const MeshStyle& style)
+                           const ImageRgba8* texture, const MeshStyle& style,
+                           const IndexMap* index_map)
     : gl_(gl), style_(style), array_(gl) {
   VIEWCELL_CHECK(style.size_px > 0 && style.samples > 0 &&
                      style.size_px <= kMostSamplesPerSide / style.samples,
                  style.size_px, style.samples);
   VIEWCELL_CHECK(!texture || mesh.texcoords.size() == 3 * mesh.triangles.size(),
                  mesh.texcoords.size());
+  VIEWCELL_CHECK(texture || !index_map, "an indexing map without a texture");
+  const Surface surface =
+      index_map ? Surface::indexed_texture : (texture ? Surface::texture : Surface::colors);
   target_ = GlFramebuffer(gl, style.size_px * style.samples, style.size_px * style.samples);
-  program_ = GlProgram(gl, "mesh", kVertexSource, fragment_source(style, texture != nullptr));
+  program_ = GlProgram(gl, "mesh", kVertexSource, fragment_source(style, surface));
   gl.ProgramUniform1f(program_.id(), program_.uniform("half_width"),
                       0.5f * static_cast<float>(style.samples));
-  if (texture) texture_ = upload(gl, *texture, style.flip_v);
+  if (texture) texture_ = upload(gl, *texture);
+  if (index_map) index_map_ = upload(gl, *index_map);
   const std::vector<Vertex> vertices = make_vertices(mesh, frame, texture != nullptr, style);
   vertices_ = make_buffer(gl, vertices);
   n_vertices_ = static_cast<GLsizei>(vertices.size());
@@ -183,6 +215,7 @@ ImageRgba8 MeshRenderer::draw(const Camera& view) const {
   target_.bind();
   target_.clear({sky.x, sky.y, sky.z, 0});
   gl_.BindTextureUnit(0, texture_.id());
+  gl_.BindTextureUnit(1, index_map_.id());
   program_.use();
   array_.bind();
   gl_.Disable(GL_CULL_FACE);

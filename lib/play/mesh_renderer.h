@@ -3,6 +3,7 @@
 
 #include "gl/framebuffer.h"
 #include "gl/objects.h"
+#include "image/index_map.h"
 #include "play/mesh_views.h"
 #include "scene/lighting.h"
 
@@ -38,10 +39,11 @@ inline constexpr int kMostSamplesPerSide = 8192;
 class MeshRenderer {
  public:
   /// texture: sRGB, taken as opaque, on all triangles; null: none, and the mesh's colours are drawn
-  /// if it has some. Needs texture coordinates. gl must outlive this; nothing else need.
-  /// Throws MachineError when GL memory runs out.
+  /// if it has some. Needs texture coordinates. index_map: these look it up, and what it holds
+  /// looks up the texture (play/index_map_lookup.h); needs a texture. gl must outlive this; nothing
+  /// else need. Throws MachineError when GL memory runs out.
   MeshRenderer(const Gl& gl, const TriMesh& mesh, const MeshFrame& frame, const ImageRgba8* texture,
-               const MeshStyle& style);
+               const MeshStyle& style, const IndexMap* index_map = nullptr);
 
   /// A view in frame space (make_views). Both sides of a triangle are drawn, the back lit as a
   /// front that faces the same way: simplified meshes are often open. Alpha is 255 where any sample
@@ -53,7 +55,7 @@ class MeshRenderer {
   MeshStyle style_;
   GlFramebuffer target_;
   GlProgram program_;
-  GlTexture texture_;
+  GlTexture texture_, index_map_;
   GlBuffer vertices_;
   GlVertexArray array_;
   GLsizei n_vertices_ = 0;
