@@ -155,6 +155,20 @@ std::int64_t optional_integer(const JsonCursor& object, const char* key, std::in
   return object.has(key) ? object.at(key).integer(0, kMostBytes) : fallback;
 }
 
+JsonCursor view_at(const GltfFile& gltf, std::int64_t id) {
+  return gltf.root().at("bufferViews").at(static_cast<std::size_t>(id));
+}
+
+std::string_view bytes_of_view(const GltfFile& gltf, const JsonCursor& view) {
+  const auto buffer_id = static_cast<std::size_t>(view.at("buffer").integer(0, 1 << 30));
+  if (buffer_id >= gltf.buffers.size()) view.at("buffer").fail("no such buffer");
+  const auto start = static_cast<std::size_t>(optional_integer(view, "byteOffset", 0));
+  const auto n_bytes = static_cast<std::size_t>(view.at("byteLength").integer(1, kMostBytes));
+  const std::string_view buffer = gltf.buffers[buffer_id];
+  if (start + n_bytes > buffer.size()) view.fail("is past its buffer's end");
+  return buffer.substr(start, n_bytes);
+}
+
 Elements locate(const GltfFile& gltf, std::int64_t id) {
   const JsonCursor accessor = accessor_at(gltf, id);
   if (accessor.has("sparse")) accessor.fail("sparse accessors are not read");
@@ -168,21 +182,15 @@ Elements locate(const GltfFile& gltf, std::int64_t id) {
   const std::size_t element_bytes = e.n_components * component_bytes(accessor);
 
   const std::int64_t view_id = accessor.at("bufferView").integer(0, 1 << 30);
-  const JsonCursor view = gltf.root().at("bufferViews").at(static_cast<std::size_t>(view_id));
-  const auto buffer_id = static_cast<std::size_t>(view.at("buffer").integer(0, 1 << 30));
-  if (buffer_id >= gltf.buffers.size()) view.at("buffer").fail("no such buffer");
-  const auto view_start = static_cast<std::size_t>(optional_integer(view, "byteOffset", 0));
-  const auto view_bytes = static_cast<std::size_t>(view.at("byteLength").integer(1, kMostBytes));
-  if (view_start + view_bytes > gltf.buffers[buffer_id].size())
-    view.fail("is past its buffer's end");
-
+  const JsonCursor view = view_at(gltf, view_id);
+  const std::string_view bytes = bytes_of_view(gltf, view);
   e.stride = static_cast<std::size_t>(
       optional_integer(view, "byteStride", static_cast<std::int64_t>(element_bytes)));
   if (e.stride < element_bytes || e.stride > 65536) view.at("byteStride").fail("is out of range");
   const auto start = static_cast<std::size_t>(optional_integer(accessor, "byteOffset", 0));
-  if (start + (e.count - 1) * e.stride + element_bytes > view_bytes)
+  if (start + (e.count - 1) * e.stride + element_bytes > bytes.size())
     accessor.fail("is past its buffer view's end");
-  e.first = gltf.buffers[buffer_id].data() + view_start + start;
+  e.first = bytes.data() + start;
   return e;
 }
 
@@ -209,6 +217,13 @@ GltfFile parse_gltf_file(std::string_view bytes, const std::filesystem::path& fi
   check_header(gltf.root());
   load_buffers(parts, gltf);
   return gltf;
+}
+
+std::string read_image_bytes(const GltfFile& gltf, std::int64_t id) {
+  const JsonCursor image = gltf.root().at("images").at(static_cast<std::size_t>(id));
+  if (image.has("uri")) return load_uri(image.at("uri"));
+  const std::int64_t view_id = image.at("bufferView").integer(0, 1 << 30);
+  return std::string(bytes_of_view(gltf, view_at(gltf, view_id)));
 }
 
 std::size_t accessor_components(const GltfFile& gltf, std::int64_t id) {

@@ -32,6 +32,9 @@ std::vector<float> read_float_accessor(const GltfFile& gltf, std::int64_t id,
                                        std::size_t n_components);
 /// A scalar accessor of unsigned integers.
 std::vector<std::uint32_t> read_index_accessor(const GltfFile& gltf, std::int64_t id);
+/// The bytes of image `id` as they are (PNG, JPEG, WebP): embedded, base64, or of a file of the
+/// folder.
+std::string read_image_bytes(const GltfFile& gltf, std::int64_t id);
 /// 3 for "VEC3", and so on.
 std::size_t accessor_components(const GltfFile& gltf, std::int64_t id);
 

@@ -3,15 +3,15 @@
 #include <utility>
 
 #include "base/error.h"
-#include "base/file.h"
 #include "base/table.h"
 #include "common/files.h"
 #include "common/provenance.h"
 #include "common/stopwatch.h"
 #include "common/tool.h"
 #include "gl/context.h"
-#include "image/io.h"
+#include "image/index_map.h"
 #include "mesh/io.h"
+#include "mesh/texture_file.h"
 #include "play/mesh_shots.h"
 
 namespace viewcell {
@@ -20,8 +20,8 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Options {
-  std::string mesh_file, texture_file, like_file, box;
-  std::string mesh_hash, like_hash;  // once they are read
+  std::string mesh_file, texture, map_file, like_file, box;
+  std::string mesh_hash, texture_hash, map_hash, like_hash;  // once they are read
   std::string up = "auto", normals = "mesh", gl = "osmesa", sheet;
   bool unlit = false, fixed_light = false, no_sheet = false;
   MeshStyle style;
@@ -31,9 +31,16 @@ struct Options {
 void declare(Tool& tool, Options& o) {
   CLI::App& app = tool.app();
   app.add_option("MESH", o.mesh_file, "OBJ, PLY (.gz), OFF, STL, GLB, glTF or 3DS")->required();
-  app.add_option("--texture", o.texture_file,
-                 "picture for the mesh's texture coordinates, repeated, filtered with mipmaps; "
-                 "textures that the mesh file names or holds are not read");
+  CLI::Option* texture = app.add_option(
+      "--texture", o.texture,
+      "picture for the mesh's texture coordinates, repeated, filtered with mipmaps: a file, a "
+      "GLB's "
+      "base colour, or model.glb#normal (also #emissive, #occlusion, #metallicRoughness); textures "
+      "that MESH names or holds are not read unless they are given here");
+  app.add_option("--index-map", o.map_file,
+                 "indexing map (.exr, .tif) that the mesh's texture coordinates look up; what it "
+                 "holds looks up --texture")
+      ->needs(texture);
   app.add_flag("--flip-v", o.style.flip_v,
                "v = 0 is the texture's top row: for files whose coordinates run that way");
   app.add_option("--views", o.shots.n_views, "number of views, spread evenly over the sphere")
@@ -80,11 +87,19 @@ MeshFrame choose_frame(Options& o, const TriMesh& mesh) {
   return make_frame(box_of_triangles(read_mesh(o.like_file, &o.like_hash)), up, source);
 }
 
-std::optional<ImageRgba8> read_texture(const Options& o, const TriMesh& mesh) {
-  if (o.texture_file.empty()) return {};
+struct Textures {
+  std::optional<ImageRgba8> color;
+  std::optional<IndexMap> index_map;
+};
+
+Textures read_textures(Options& o, const TriMesh& mesh) {
+  Textures textures;
+  if (o.texture.empty()) return textures;
   if (mesh.texcoords.empty())
     throw InputError(o.mesh_file, "", "has no texture coordinates, which --texture needs");
-  return read_image_rgba8(o.texture_file);
+  textures.color = read_texture(o.texture, &o.texture_hash);
+  if (!o.map_file.empty()) textures.index_map = read_index_map(o.map_file, &o.map_hash);
+  return textures;
 }
 
 // What was typed is checked, and what stands in the folder, before anything is read.
@@ -104,19 +119,22 @@ void settle_options(const Tool& tool, Options& o) {
   const std::string sheet = o.shots.sheet.string();
   check_ending({"--sheet", sheet}, {".png"}, "a PNG");
   check_files({{"the mesh that is read", o.mesh_file},
-               {"the texture that is read", o.texture_file},
+               {"the texture that is read", texture_file(o.texture).string()},
+               {"the indexing map that is read", o.map_file},
                {"the mesh of --like", o.like_file}},
               {{"--sheet", sheet}, {"--json", tool.common().json_file}});
   check_shot_folder(o.shots.folder, o.shots.n_views);
 }
 
 Json format_provenance(const Tool& tool, const Options& o) {
-  const std::string& texture = o.texture_file;
-  return make_provenance(
-      tool, format_style(o.style),
-      {{"mesh", o.mesh_hash},
-       {"texture", texture.empty() || texture == "-" ? Json() : Json(hash_file(texture))},
-       {"like", o.like_file.empty() ? Json() : Json(o.like_hash)}});
+  const auto hash = [](const std::string& digits) {
+    return digits.empty() ? Json() : Json(digits);
+  };
+  return make_provenance(tool, format_style(o.style),
+                         {{"mesh", o.mesh_hash},
+                          {"texture", hash(o.texture_hash)},
+                          {"index_map", hash(o.map_hash)},
+                          {"like", hash(o.like_hash)}});
 }
 
 int run(const Tool& tool, Options& o) {
@@ -124,10 +142,12 @@ int run(const Tool& tool, Options& o) {
   settle_options(tool, o);
   const TriMesh mesh = read_mesh(o.mesh_file, &o.mesh_hash);
   const MeshFrame frame = choose_frame(o, mesh);
-  const std::optional<ImageRgba8> texture = read_texture(o, mesh);
+  const Textures textures = read_textures(o, mesh);
   const double read_s = watch.lap_s();
   const GlContext context(parse_gl_engine(o.gl));
-  const MeshRenderer renderer(context.gl(), mesh, frame, texture ? &*texture : nullptr, o.style);
+  const auto& [color, index_map] = textures;
+  const MeshRenderer renderer(context.gl(), mesh, frame, color ? &*color : nullptr, o.style,
+                              index_map ? &*index_map : nullptr);
   const double upload_s = watch.lap_s();
   o.shots.title = fs::path(o.mesh_file).filename().string() + ", " +
                   std::to_string(mesh.triangles.size()) + " triangles";

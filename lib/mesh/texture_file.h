@@ -1,0 +1,27 @@
+// Textures out of picture files, and out of GLB and glTF files.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "image/image.h"
+
+namespace viewcell {
+
+/// Reads a texture; row 0 is v = 1. name is one of
+/// - a picture's, as read_image_rgba8 has it ("-": standard input; what it holds decides);
+/// - a GLB's or glTF's: its base colour texture;
+/// - "model.glb#SLOT" (or .gltf): the texture of that slot: baseColor, normal, emissive, occlusion
+///   or metallicRoughness.
+/// Pixels are those of the picture: glTF's factors are not applied, colour spaces not changed.
+///
+/// All materials that the file's faces have must mean the same picture; materials without that slot
+/// are passed over. Throws InputError for several pictures, for none, for texture coordinates other
+/// than the first set or moved by KHR_texture_transform (read_mesh reads neither), for an unknown
+/// slot, and for anything malformed. hash: hash_hex of the file's bytes, if wanted.
+ImageRgba8 read_texture(const std::string& name, std::string* hash = nullptr);
+
+/// The file that a texture's name means: without its #SLOT.
+std::filesystem::path texture_file(const std::string& name);
+
+}  // namespace viewcell
