@@ -1,0 +1,37 @@
+// A mesh with its textures as one file: binary glTF 2.0.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "mesh/mesh.h"
+
+namespace viewcell {
+
+/// What a GLB holds beside the mesh.
+struct GlbOptions {
+  std::string base_color;  ///< a PNG's or JPEG's bytes (encode_png); empty: no texture
+  std::string normal_map;  ///< the same, in tangent space, y up; empty: none
+  std::string generator;   ///< "texadapt 0.1.0"; empty: "viewcell" and the version
+};
+
+/// Writes positions, and normals and texture coordinates where present, as one primitive of one
+/// material (white times base_color, dielectric, rough). Whole or not at all; "-": standard output.
+/// The same input gives the same bytes: no date.
+///
+/// Vertices 0 .. n - 1 are the mesh's; where a vertex's corners have several texture coordinates,
+/// copies of it follow from n on, in the order of the corners. Triangles keep their order, and so
+/// do their corners. v is turned over, as read_mesh turns it: v comes back exactly if it is a
+/// multiple of 2^-24 in [0, 1], else to within 2^-25. Axes stay as they are, though glTF holds that
+/// y points up. Indices are uint16 up to 65535 vertices, else uint32.
+///
+/// Left out: materials and their names; vertex colours where there is base_color, which would
+/// multiply it; tangents, which a viewer of the normal map makes for itself (glTF 2.0, 3.7.2.1).
+///
+/// The mesh must have a triangle; a texture needs texture coordinates. Throws InputError for
+/// positions or texture coordinates that are not finite, for bytes that are neither PNG nor JPEG,
+/// and beyond 4 GiB; MachineError when it cannot be written.
+void write_glb(const std::filesystem::path& file, const TriMesh& mesh,
+               const GlbOptions& options = {});
+
+}  // namespace viewcell
