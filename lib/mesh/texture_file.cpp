@@ -100,11 +100,11 @@ ImageRgba8 decode_gltf_texture(std::string_view bytes, const fs::path& file, con
   for (const std::int64_t material : used_materials(gltf.root()))
     if (const std::int64_t image = image_of_material(gltf.root(), material, slot); image >= 0)
       images.insert(image);
-  const std::string words = std::string(slot.name) + " texture";
-  if (images.empty()) throw InputError(file.string(), "materials", "none has a " + words);
+  const std::string words = std::string("in the slot ") + slot.name;
+  if (images.empty()) throw InputError(file.string(), "materials", "none has a texture " + words);
   if (images.size() > 1)
     throw InputError(file.string(), "materials",
-                     "have " + std::to_string(images.size()) + " different pictures as " + words +
+                     "have " + std::to_string(images.size()) + " different pictures " + words +
                          "; one is drawn at a time");
   const std::int64_t image = *images.begin();
   return decode_image_rgba8(read_image_bytes(gltf, image),
