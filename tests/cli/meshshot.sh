@@ -83,6 +83,28 @@ for style in --unlit --fixed-light --wireframe "--samples 1"; do
   previous=s$style
 done
 
+# A texture out of a GLB, and through an indexing map: 4 x 2 texels of the identity, one texel that
+# holds a corner. (gzip, base64.)
+unpack() { base64 -d | gunzip >"$1"; }
+unpack square.glb <<<H4sIAAAAAAACA5VUzWsTQRTfthHaQPHuxToHRVnjZjemSS4ln3alZksSihCKTraT7cB+hNnZ2hIDpTfPHrx68iQeBL02iOhF/AM8evA/6EU8+GYz+TAVsQM7875+773f29l13FZtUVGU1wlF+bikKPebVr2PcBgSjgp9dEBYSAMfFZCe0pCKHOIThnnAwOKggYpCGyyooEkpRIV2H/nBXixpu4NddaL1kUfCfYgVRiFKa49Rj3J6IFXMOaOdiAu1j7atptkyrXpcolV9WLasRuWRhgppKE79PWqLOB0SYk4YxW6cX1SgHnZkyk7U7RK2Q8kTVDAglHqkddSDtkdBd3o+cAEIJ4c8YhIUYq/nEjbiFkTMJrJ16ZCUsFOjLhdx+XU9L5L7E0M+tx5zla1Juh32gHDsutRuBJGzD0OLmXrSWMN2PF8oy8b+sS2tog4OSTlwA9YaNSugMAdyKLobiHLYhpmEATvPHVLagdcLfOLz0QDupvWsMEY+vO4MTGA0lp1q2UAxF8hxO53S1HjTUlpMB2q1hT62DdQ/66QvUEdH82j9b2hjgs5O0M1ycavYiN/cFD/LOmbcOeLE6nbjCy3VLeI7HG5iJge5MHOEy8jks/q0lXNQETuLNfT/x+bm6qbnsMY/sHl9Dqvlp4Ql2Rm3rmXg+q+tfYFvumTWYT8+HT1iHW/MyRtSPp3Ks77ZmPFaUMT/YlFZUp5t1++tJq8kQV01NysNOBPiWRYB15+v3IRjJajVwgn22633X+G4alaKreW2/fTVtc/D4csbby9v6t9//Po5PPtUSnxYUC6dJd/VrJMXAmJW65U3pccn0MRv0gUjjKwEAAA=
+unpack identity.tif <<<H4sIAAAAAAACA/P01GLgYGBg4GNgYGRmYASyWICYEcpmAmEgG0QLACEzVBykgw3KBmFBRhYwfRSIhZDERZHMEYOyFYBYHKpeGohlkNQbMjIx8APpbUBsi6Q3GOoGRrAIA0NZZmp5cmpOjoKBnqGeAUPFnOSAH/vnH2xsfLjflpm5Iy2AYZJHDUPRc9bdAICxw7HgAAAA
+unpack corner.tif <<<H4sIAAAAAAACA/P01GLgYGBg4GNgYGRmYASywBiJzQRkMwFpASBkhoqDdLAhqRFkZAHTR4FYCElcFMoG6ReDshWAWByqnh+IZZDUGzIygcW2AbEtkt5gqBsYwSIMDGWZqeXJqTk5CgZ6hnoGDBVzgOb9/j9LMvUZSzrjfwDqF2K11AAAAA==
+square=("$bin/meshshot" square.glb --unlit --size 64 --views 1)
+expect 0 "${square[@]}" --texture square.glb -o t-glb --no-sheet --json "$log/t.json"
+grep -q '"texture": "[0-9a-f]\{16\}"' "$log/t.json" || fail "the report does not name the texture"
+grep -q '"index_map": null' "$log/t.json" || fail "a map that was not given"
+expect 0 "${square[@]}" --texture square.glb#baseColor -o t-slot --no-sheet
+diff -r t-glb t-slot || fail "the base colour is not the GLB's texture"
+indexed=("${square[@]}" --texture square.glb --index-map)
+expect 0 "${indexed[@]}" identity.tif -o t-identity --no-sheet --json "$log/t.json"
+grep -q '"index_map": "[0-9a-f]\{16\}"' "$log/t.json" || fail "the report does not name the map"
+expect 0 "$bin/psnr" t-glb t-identity --no-ssim --json "$log/t.json" --fail-below 48
+grep -q '"max_abs": *\([2-9]\|1[0-9]\)' "$log/t.json" && fail "the identity changes colours"
+"${indexed[@]}" - -o t-pipe --no-sheet -q -j 1 <identity.tif || fail "--index-map -"
+diff -r t-identity t-pipe || fail "--index-map - gives other pictures"
+expect 0 "${indexed[@]}" corner.tif -o t-corner --no-sheet
+expect 5 "$bin/psnr" t-glb t-corner --no-ssim --fail-below 40
+
 # Misuse.
 fault 2 "--output is required" "$bin/meshshot" ball.off
 fault 2 "-o names a folder" "${shot[@]}" ball.off -o -
@@ -93,6 +115,9 @@ fault 2 "box '0,0,0:1,1' is not" "${shot[@]}" ball.off --box 0,0,0:1,1 -o x
 fault 2 "--box" "${shot[@]}" ball.off --box 0,0,0:1,1,1 --like ball.off -o x
 fault 2 "normals 'smooth' are unknown" "${shot[@]}" ball.off --normals smooth -o x
 fault 2 "GL engine 'glx'" "${shot[@]}" ball.off --gl glx -o x
+fault 2 "--index-map requires --texture" "${shot[@]}" square.glb --index-map identity.tif -o x
+fault 2 "standard input" "${shot[@]}" square.glb --texture - --index-map - -o x
+fault 2 "--json" "${shot[@]}" square.obj --texture square.glb#normal --json square.glb -o x
 
 # Bad input.
 fault 1 "missing.off" "${shot[@]}" missing.off -o x
@@ -102,12 +127,22 @@ fault 1 "missing.png" "${shot[@]}" square.obj --texture missing.png -o x
 fault 1 "ball.off: is not a PNG" "${shot[@]}" square.obj --texture ball.off -o x
 head -c 60 gray.png >cut.png
 fault 1 "cut.png" "${shot[@]}" square.obj --texture cut.png -o x
+fault 1 "none has a texture in the slot normal" "${shot[@]}" square.glb --texture square.glb#normal -o x
+fault 1 "square.glb#skin: is no texture's name" "${shot[@]}" square.glb --texture square.glb#skin -o x
+head -c 1100 square.glb >cut.glb
+fault 1 "cut.glb" "${shot[@]}" square.obj --texture cut.glb -o x
+fault 1 "missing.exr" "${indexed[@]}" missing.exr -o x
+fault 1 "gray.png: is not a TIFF or EXR" "${indexed[@]}" gray.png -o x
+head -c 100 identity.tif >cut.tif
+fault 1 "cut.tif" "${indexed[@]}" cut.tif -o x
+noise 3000 >noise.exr
+fault 1 "noise.exr" "${indexed[@]}" noise.exr -o x
 printf 'OFF\n3 1 0\n1 2 3\n1 2 3\n1 2 3\n3 0 1 2\n' >point.off
 fault 1 "point.off: has no extent" "${shot[@]}" point.off -o x
 fault 1 "--box: has no extent" "${shot[@]}" ball.off --box 1,1,1:1,1,1 -o x
 fault 1 "ball.off" "${shot[@]}" ball.off -o ball.off
 # A folder with views that would stay is refused before anything is read.
 fault 1 "a: has 'view-02.png', which is none of the 2" "$bin/meshshot" ball.off --views 2 -o a
-[ "$n_faults" -eq 19 ] || fail "$n_faults faults typed"
+[ "$n_faults" -eq 29 ] || fail "$n_faults faults typed"
 [ -z "$(find . -name '.tmp-*')" ] || fail "temporaries are left"
 echo "meshshot.sh: all well"
