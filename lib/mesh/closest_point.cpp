@@ -64,6 +64,30 @@ glm::dvec3 closest_point_on_triangle(const glm::dvec3& p, const glm::dvec3& a, c
   return best;
 }
 
+glm::dvec3 corner_weights(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3& b,
+                          const glm::dvec3& c) {
+  const std::array<glm::dvec3, 3> at{a, b, c};
+  std::size_t k = 0;  // the longest edge runs from corner k to the next
+  const auto squared = [&](std::size_t i) { return distance_squared(at[i], at[(i + 1) % 3]); };
+  for (std::size_t i = 1; i < 3; ++i)
+    if (squared(i) > squared(k)) k = i;
+  const double longest = squared(k);
+  const glm::dvec3 n = glm::cross(b - a, c - a);
+  const double nn = glm::dot(n, n);
+  glm::dvec3 weights(0);
+  if (nn > kThinSquared * longest * longest) {
+    weights.y = std::max(0.0, glm::dot(glm::cross(p - a, c - a), n) / nn);
+    weights.z = std::max(0.0, glm::dot(glm::cross(b - a, p - a), n) / nn);
+    weights.x = std::max(0.0, 1 - weights.y - weights.z);
+    return weights / (weights.x + weights.y + weights.z);
+  }
+  const glm::dvec3 &from = at[k], along = at[(k + 1) % 3] - from;
+  const double t = longest > 0 ? std::clamp(glm::dot(p - from, along) / longest, 0.0, 1.0) : 0;
+  weights[static_cast<int>(k)] = 1 - t;
+  weights[static_cast<int>((k + 1) % 3)] = t;
+  return weights;
+}
+
 struct ClosestPointFinder::Hierarchy {
   const std::vector<Triangle>& triangles;
   std::vector<glm::dvec3> positions;  // in the domain: within [-1, 1]
@@ -123,20 +147,24 @@ void ClosestPointFinder::Hierarchy::build(int n_threads) {
 
 namespace {
 
+constexpr std::uint32_t kNoTriangle = 0xffffffffu;
+
 // What one query has found so far, in the domain.
 struct Search {
   const std::vector<Triangle>& triangles;
   const std::vector<glm::dvec3>& positions;
   glm::dvec3 p;
+  const glm::dvec3* direction = nullptr;  // that triangles must face, if any
   glm::dvec3 nearest{0};
   double squared = std::numeric_limits<double>::infinity();
-  std::uint32_t triangle = 0;
+  std::uint32_t triangle = kNoTriangle;
 
   // True when the triangle is nearer than all before.
   bool consider(std::uint32_t id) {
     const Triangle& t = triangles[id];
-    const glm::dvec3 q =
-        closest_point_on_triangle(p, positions[t[0]], positions[t[1]], positions[t[2]]);
+    const glm::dvec3 &a = positions[t[0]], &b = positions[t[1]], &c = positions[t[2]];
+    if (direction && !(glm::dot(glm::cross(b - a, c - a), *direction) > 0)) return false;
+    const glm::dvec3 q = closest_point_on_triangle(p, a, b, c);
     const double d = distance_squared(p, q);
     if (d > squared || (d == squared && id >= triangle)) return false;
     squared = d, nearest = q, triangle = id;
@@ -153,6 +181,18 @@ bool consider_triangle(RTCPointQueryFunctionArguments* args) {
   return true;
 }
 
+void search_scene(RTCScene scene, Search& search) {
+  RTCPointQuery query;
+  query.x = static_cast<float>(search.p.x);
+  query.y = static_cast<float>(search.p.y);
+  query.z = static_cast<float>(search.p.z);
+  query.time = 0;
+  query.radius = search.radius();
+  RTCPointQueryContext context;
+  rtcInitPointQueryContext(&context);
+  rtcPointQuery(scene, &query, &context, consider_triangle, &search);
+}
+
 }  // namespace
 
 ClosestPointFinder::ClosestPointFinder(const TriMesh& mesh, const Box& domain, int n_threads)
@@ -164,17 +204,21 @@ ClosestPoint ClosestPointFinder::find(const glm::dvec3& p, std::uint32_t hint) c
   const Hierarchy& h = *hierarchy_;
   Search search{h.triangles, h.positions, h.into_domain(p)};
   search.consider(hint);
-  RTCPointQuery query;
-  query.x = static_cast<float>(search.p.x);
-  query.y = static_cast<float>(search.p.y);
-  query.z = static_cast<float>(search.p.z);
-  query.time = 0;
-  query.radius = search.radius();
-  RTCPointQueryContext context;
-  rtcInitPointQueryContext(&context);
-  rtcPointQuery(h.scene, &query, &context, consider_triangle, &search);
+  search_scene(h.scene, search);
   return {search.nearest / h.scale + h.centre, std::sqrt(search.squared) / h.scale,
           search.triangle};
+}
+
+std::optional<ClosestPoint> ClosestPointFinder::find_facing(const glm::dvec3& p,
+                                                            const glm::dvec3& direction,
+                                                            double within) const {
+  const Hierarchy& h = *hierarchy_;
+  Search search{h.triangles, h.positions, h.into_domain(p), &direction};
+  search.squared = (h.scale * within) * (h.scale * within);
+  search_scene(h.scene, search);
+  if (search.triangle == kNoTriangle) return std::nullopt;
+  return ClosestPoint{search.nearest / h.scale + h.centre, std::sqrt(search.squared) / h.scale,
+                      search.triangle};
 }
 
 }  // namespace viewcell

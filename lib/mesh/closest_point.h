@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 
 #include "mesh/mesh.h"
 
@@ -12,6 +13,11 @@ namespace viewcell {
 /// counts as its edges; the error is then below 1e-8 of the longest edge, otherwise it is rounding.
 glm::dvec3 closest_point_on_triangle(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3& b,
                                      const glm::dvec3& c);
+
+/// Weights of the corners at p, a point of the triangle a, b, c; none is negative, their sum is 1.
+/// In a triangle that is (almost) a segment the corner off its longest edge has none.
+glm::dvec3 corner_weights(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3& b,
+                          const glm::dvec3& c);
 
 struct ClosestPoint {
   glm::dvec3 point{0};         ///< on the mesh
@@ -37,6 +43,11 @@ class ClosestPointFinder {
   /// hint: a triangle that is probably near, such as the one found for a neighbouring point. It
   /// changes the time only. May be called from several threads; about a microsecond.
   ClosestPoint find(const glm::dvec3& p, std::uint32_t hint = 0) const;
+
+  /// The same among triangles whose normals make less than a right angle with direction: one side
+  /// of a sheet. Nothing when none of them is within the distance given.
+  std::optional<ClosestPoint> find_facing(const glm::dvec3& p, const glm::dvec3& direction,
+                                          double within) const;
 
  private:
   struct Hierarchy;
