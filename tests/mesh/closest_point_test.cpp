@@ -44,6 +44,24 @@ TEST(ClosestPointOnTriangle, SegmentsAndPoints) {
   EXPECT_EQ(closest_point_on_triangle({7, 8, 9}, a, a, a), a);
 }
 
+TEST(CornerWeights, GiveThePointBack) {
+  for (std::uint64_t seed = 0; seed < 300; ++seed) {
+    SCOPED_TRACE(seed);
+    Random random(seed);
+    const glm::dvec3 a = random_point(random), b = random_point(random);
+    const double thin = seed % 2 ? 1 : 1e-12;
+    const glm::dvec3 c = glm::mix(a, b, random.uniform()) + thin * random_point(random);
+    const glm::dvec3 p = closest_point_on_triangle(random_point(random), a, b, c);
+    const glm::dvec3 w = corner_weights(p, a, b, c);
+    EXPECT_GE(std::min({w.x, w.y, w.z}), 0);
+    EXPECT_NEAR(w.x + w.y + w.z, 1, 1e-12);
+    EXPECT_LT(glm::distance(w.x * a + w.y * b + w.z * c, p), 1e-9);
+  }
+  const glm::dvec3 a(1, 1, 1), b(3, 1, 1);
+  EXPECT_EQ(corner_weights({1.5, 1, 1}, a, {2, 1, 1}, b), glm::dvec3(0.75, 0, 0.25));
+  EXPECT_EQ(corner_weights(a, a, a, a), glm::dvec3(1, 0, 0));
+}
+
 // No point of a fine grid on the triangle is nearer, and the point found is on the triangle: it is
 // reproduced by its own barycentric coordinates. Needles among the triangles.
 TEST(ClosestPointOnTriangle, NoGridPointIsNearer) {
@@ -167,6 +185,37 @@ TEST(ClosestPointFinder, TiesGoToTheLowestNumber) {
 }
 
 // A vertex that no triangle uses may lie anywhere, even where a float of the domain has no end.
+// As if every triangle that faces the direction were tried.
+TEST(ClosestPointFinder, FindsTheSideThatFaces) {
+  const TriMesh knot = make_bumpy_torus(12, 24);
+  const ClosestPointFinder finder(knot, {glm::dvec3(-2), glm::dvec3(2)}, 1);
+  std::size_t n_found = 0;
+  for (std::uint64_t seed = 0; seed < 500; ++seed) {
+    SCOPED_TRACE(seed);
+    Random random(seed);
+    const glm::dvec3 p = random_point(random, 1.5), direction = random_point(random);
+    const double within = random.uniform(0, 1.5);
+    double nearest = within;
+    std::int64_t expected = -1;
+    for (std::uint32_t t = 0; t < knot.triangles.size(); ++t) {
+      const auto& [a, b, c] = knot.triangles[t];
+      if (!(glm::dot(area_normal(knot, knot.triangles[t]), direction) > 0)) continue;
+      const double d = glm::distance(
+          p, closest_point_on_triangle(p, knot.positions[a], knot.positions[b], knot.positions[c]));
+      if (d < nearest - 1e-12) nearest = d, expected = t;
+    }
+    const auto found = finder.find_facing(p, direction, within);
+    ASSERT_EQ(found.has_value(), expected >= 0);
+    if (!found) continue;
+    ++n_found;
+    EXPECT_NEAR(found->distance, nearest, 1e-12);
+    EXPECT_NEAR(glm::distance(found->point, p), nearest, 1e-12);
+    EXPECT_GT(glm::dot(area_normal(knot, knot.triangles[found->triangle]), direction), 0);
+  }
+  EXPECT_GT(n_found, 200u);
+  EXPECT_LT(n_found, 450u);
+}
+
 TEST(ClosestPointFinder, UnusedVerticesDoNotMatter) {
   TriMesh mesh;
   mesh.positions = {{0, 0, 0}, {1e-30f, 0, 0}, {0, 1e-30f, 0}, {1e30f, -1e30f, 1e30f}};
