@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
 #include <limits>
 #include <numeric>
 
@@ -10,6 +11,7 @@
 #include "bake/chart_checks.h"
 #include "bake/texel_spans.h"
 #include "base/random.h"
+#include "mesh/io.h"
 #include "mesh/surfaces.h"
 
 namespace viewcell {
@@ -191,6 +193,25 @@ TEST(ChartChecks, NarrowOverlapsAreNone) {
   }
 }
 
+// One chart lies over another in the first and in the last column: neighbours in memory only.
+//  +------------+
+//  ||          ||    a bar with two legs, one texel wide, over a square
+TEST(ChartChecks, RowsDoNotGoOn) {
+  constexpr float kTexel = 1.0f / 16;
+  TriMesh mesh = make_squares({{{0, 0}, {1, 0.5f}},
+                               {{0, 0}, {kTexel, 0.5f}},
+                               {{1 - kTexel, 0}, {kTexel, 0.5f}},
+                               {{0, 0.5f}, {kTexel, 0.25f}},
+                               {{kTexel, 0.5f}, {1 - 2 * kTexel, 0.25f}},
+                               {{1 - kTexel, 0.5f}, {kTexel, 0.25f}}});
+  for (std::size_t c = 0; c < mesh.texcoords.size(); ++c)
+    mesh.positions[mesh.triangles[c / 3][c % 3]] = glm::vec3(mesh.texcoords[c], c < 6 ? 0 : 1);
+  const ChartFindings f = check_charts(mesh, 16, 16);
+  EXPECT_EQ(f.n_charts, 2u);
+  EXPECT_EQ(f.overlaps.size(), 0u);
+  EXPECT_EQ(check_charts(mesh, 32, 32).overlaps.size(), 1u);
+}
+
 // Two squares at an edge; the second folded back over the first.
 TEST(ChartChecks, FoldsAndMirrors) {
   TriMesh mesh = make_squares({{{0.25f, 0.25f}, {0.5f, 0.5f}}, {{0.75f, 0.25f}, {-0.25f, 0.5f}}});
@@ -276,6 +297,33 @@ TEST(ChartChecks, CountsCrowdedTexels) {
     const ChartFindings f = check_charts(mesh, 100, 100);
     EXPECT_EQ(f.n_crowded, gap == 0 ? 80u : gap == 1 ? 40u : 0u) << gap;
     EXPECT_TRUE(f.is_one_to_one());
+  }
+}
+
+// What is known of real models: their charts, and what looking at their charts' map shows.
+TEST(ChartChecks, RealModels) {
+  struct Expected {
+    const char* file;
+    std::size_t n_charts;
+    bool is_one_to_one;
+  };
+  constexpr Expected kModels[] = {
+      {"cyberhead-josie/josie.obj", 1, true},
+      {"spot-6k/spot_triangulated.obj", 13, true},  // a little outside
+      {"blub-14k/blub_triangulated.obj", 5, true},
+      {"head-leeperrysmith-18k/LeePerrySmith.glb", 11, false},  // eyes folded
+      {"egyptian-cat-5k/cat.glb", 29, true},
+      {"horse-7k/horse.3ds", 1, false},                     // both sides on one picture
+      {"damagedhelmet-15k/DamagedHelmet.glb", 478, false},  // another tile, two layers
+      {"texturedknot-3k/texturedknot.obj", 1, false},       // repeats
+  };
+  const std::filesystem::path folder = VIEWCELL_SHARED_DATA;
+  if (!std::filesystem::exists(folder)) GTEST_SKIP() << folder << " is not here";
+  for (const Expected& expected : kModels) {
+    SCOPED_TRACE(expected.file);
+    const ChartFindings f = check_charts(read_mesh(folder / expected.file), 1024, 1024);
+    EXPECT_EQ(f.n_charts, expected.n_charts);
+    EXPECT_EQ(f.is_one_to_one(), expected.is_one_to_one) << describe(f);
   }
 }
 

@@ -155,6 +155,51 @@ TEST(Rebake, NothingBleedsIntoCharts) {
   }
 }
 
+// Two charts side by side without a gap: at a finer resolution their texels do not mix.
+TEST(Rebake, FetchesFromOneChart) {
+  TriMesh mesh;
+  for (const float z : {0.0f, 5.0f})
+    for (const glm::vec2 p : {glm::vec2(0), {1, 0}, {1, 1}, {0, 1}})
+      mesh.positions.emplace_back(p, z);
+  mesh.triangles = {{0, 1, 2}, {0, 2, 3}, {4, 5, 6}, {4, 6, 7}};
+  for (const Triangle& t : mesh.triangles)
+    for (const std::uint32_t v : t)
+      mesh.texcoords.emplace_back(0.5f * mesh.positions[v].x + (v < 4 ? 0 : 0.5f),
+                                  mesh.positions[v].y);
+  constexpr Rgba8 kRed{200, 0, 0, 255}, kGreen{0, 200, 0, 255};
+  ImageRgba8 texture(8, 8, kRed);
+  for (int y = 0; y < 8; ++y)
+    for (int x = 4; x < 8; ++x) texture.at(x, y) = kGreen;
+  RebakeOptions options;
+  options.width_px = 40;
+  const ImageRgba8 out = rebake_texture(mesh, mesh, texture, options);
+  for (int y = 0; y < 8; ++y)
+    for (int x = 0; x < 40; ++x) ASSERT_EQ(out.at(x, y), x < 20 ? kRed : kGreen) << x << " " << y;
+}
+
+// Texels beyond a chart's border show the border, not the last texel inside it.
+TEST(Rebake, RimsShowTheBorder) {
+  TriMesh mesh;
+  mesh.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+  mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+  for (const Triangle& t : mesh.triangles)
+    for (const std::uint32_t v : t)
+      mesh.texcoords.emplace_back(0.1f + 0.4f * mesh.positions[v].x,
+                                  0.1f + 0.8f * mesh.positions[v].y);
+  // At 10 texels the chart holds columns 1 to 4; at 20, its border lies between 9 and 10.
+  ImageRgba8 texture(20, 20);
+  for (int y = 0; y < 20; ++y)
+    for (int x = 0; x < 20; ++x)
+      texture.at(x, y) = {static_cast<std::uint8_t>(20 * std::min(x, 9)), 0, 0, 255};
+  RebakeOptions options;
+  options.width_px = options.height_px = 10;
+  const ImageRgba8 out = rebake_texture(mesh, mesh, texture, options);
+  EXPECT_EQ(out.at(3, 5)[0], 130);  // between columns 6 and 7
+  EXPECT_EQ(out.at(4, 5)[0], 170);
+  EXPECT_EQ(out.at(5, 5)[0], 180);  // column 9, where the chart's texels end
+  EXPECT_EQ(out.at(9, 5)[0], 180);
+}
+
 //  z = 0.02  ------ up, red         level: z = 0.005 ------ up, z = 0.015 ------ down: each nearer
 //  z = 0     ------ down, green            to the side that it is not
 TEST(Rebake, TellsTheSidesOfASheet) {
