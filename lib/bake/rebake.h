@@ -28,7 +28,8 @@ struct RebakeOptions {
 ///
 /// Both meshes need texture coordinates, finite positions and indices in range, original a
 /// triangle; parts outside [0, 1] are left out of the result and continue the texture's rim as a
-/// source (check_charts tells). Throws MachineError. About 2 microseconds a texel and thread.
+/// source (check_charts tells). Throws MachineError. About a microsecond a texel shown, on one
+/// thread.
 ImageRgba8 rebake_texture(const TriMesh& level, const TriMesh& original, const ImageRgba8& texture,
                           const RebakeOptions& options = {});
 
