@@ -1,123 +1,570 @@
 #include "bake/texture_adapt.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <type_traits>
+#include <utility>
+
+#include "bake/adapt_packs.h"
+#include "bake/texel_raster.h"
+#include "base/large_vector.h"
+#include "base/parallel.h"
+#include "image/half.h"
 
 namespace viewcell {
 namespace {
 
-// Texture coordinates as places in an image: texel centres at whole numbers.
-glm::dvec2 to_texels(const glm::vec2& uv, int width_px, int height_px) {
-  return {uv.x * double(width_px) - 0.5, (1 - double(uv.y)) * height_px - 0.5};
+typedef float Float4 __attribute__((vector_size(16)));
+typedef std::int32_t Int4 __attribute__((vector_size(16)));
+
+Float4 load(const glm::vec2& t) {
+  return Float4{t.x, t.y};
+}
+Float4 load(const Unorm16Texel& t) {
+  return Float4{float(t.uv[0]), float(t.uv[1])} * (1 / 65535.0f);
+}
+Float4 load(const Unorm8Texel& t) {
+  return Float4{float(t.uv[0]), float(t.uv[1])} * (1 / 255.0f);
+}
+Float4 load(const HalfTexel& t) {
+  return Float4{float_from_half(t.uv[0]), float_from_half(t.uv[1])};
+}
+Float4 load(const Rgba8& t) {
+  return Float4{float(t[0]), float(t[1]), float(t[2]), float(t[3])};
 }
 
-// x where an edge crosses a row; the same for both triangles at the edge.
-double cross_row(glm::dvec2 a, glm::dvec2 b, double y) {
-  if (b.y < a.y || (b.y == a.y && b.x < a.x)) std::swap(a, b);
-  return a.x + (b.x - a.x) * ((y - a.y) / (b.y - a.y));
+template <typename Whole>
+Whole round_to(float x, float largest) {
+  return static_cast<Whole>(std::clamp(x, 0.0f, largest) + 0.5f);
+}
+void store(Float4 v, glm::vec2& t) {
+  t = {v[0], v[1]};
+}
+void store(Float4 v, Unorm16Texel& t) {
+  for (std::size_t k = 0; k < 2; ++k) t.uv[k] = round_to<std::uint16_t>(65535 * v[k], 65535);
+}
+void store(Float4 v, Unorm8Texel& t) {
+  for (std::size_t k = 0; k < 2; ++k) t.uv[k] = round_to<std::uint8_t>(255 * v[k], 255);
+}
+void store(Float4 v, HalfTexel& t) {
+  for (std::size_t k = 0; k < 2; ++k) t.uv[k] = half_from_float(v[k]);
+}
+void store(Float4 v, Rgba8& t) {
+  for (std::size_t k = 0; k < 4; ++k) t[k] = round_to<std::uint8_t>(v[k], 255);
 }
 
-// Calls visit(x0, x1, y) for the texels of each row whose centres lie in the triangle; triangles
-// that share an edge share no texel and leave none out.
-template <typename Visit>
-void for_each_span(const std::array<glm::dvec2, 3>& p, int width_px, int height_px, Visit&& visit) {
-  const double top = std::min({p[0].y, p[1].y, p[2].y}),
-               bottom = std::max({p[0].y, p[1].y, p[2].y});
-  const int first = std::max(0, static_cast<int>(std::ceil(top)));
-  const int last = std::min<double>(height_px, std::ceil(bottom));
-  for (int y = first; y < last; ++y) {
-    double lo = 1e300, hi = -1e300;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const glm::dvec2 &a = p[k], &b = p[(k + 1) % 3];
-      if ((a.y <= y) == (b.y <= y)) continue;
-      const double x = cross_row(a, b, y);
-      lo = std::min(lo, x), hi = std::max(hi, x);
+template <typename Texel>
+constexpr bool kIsIndex = !std::is_same_v<Texel, Rgba8>;
+
+float own_u(int x, int width_px) {
+  return float((x + 0.5) / width_px);
+}
+float own_v(int y, int height_px) {
+  return float(1 - (y + 0.5) / height_px);
+}
+
+// Four texels and the weights between them. Places outside count as the nearest inside.
+struct Footprint {
+  int x, y;
+  float s, t;
+  int dx, dy;  // 0 where there is no next texel
+
+  Footprint(const glm::vec2& at, int width_px, int height_px) {
+    const float px = std::min(std::max(at.x, 0.0f), float(width_px - 1));
+    const float py = std::min(std::max(at.y, 0.0f), float(height_px - 1));
+    x = static_cast<int>(px), y = static_cast<int>(py);
+    s = px - float(x), t = py - float(y);
+    dx = x + 1 < width_px, dy = y + 1 < height_px;
+  }
+};
+
+// The largest float below the last texel of a row or column of n > 1.
+float before_last(int n) {
+  return std::bit_cast<float>(std::bit_cast<std::uint32_t>(float(n - 1)) - 1);
+}
+
+Float4 clamp(Float4 v, Float4 lo, Float4 hi) {
+#ifdef __SSE__
+  return __builtin_ia32_minps(__builtin_ia32_maxps(v, lo), hi);
+#else
+  v = v > lo ? v : lo;
+  return v < hi ? v : hi;
+#endif
+}
+
+// Pixels of an image, row by row.
+template <typename Texel>
+struct View {
+  const Texel* pixels;
+  int width_px, height_px;
+  std::size_t offset(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_px) +
+           static_cast<std::size_t>(x);
+  }
+};
+
+template <typename Texel>
+Float4 sample(const View<Texel>& image, const glm::vec2& at) {
+  const Footprint f(at, image.width_px, image.height_px);
+  const Texel* texel = image.pixels + image.offset(f.x, f.y);
+  const Texel* below = texel + f.dy * image.width_px;
+  const Float4 a = load(texel[0]), b = load(texel[f.dx]), c = load(below[0]), d = load(below[f.dx]);
+  const Float4 top = a + f.s * (b - a), bottom = c + f.s * (d - c);
+  return top + f.t * (bottom - top);
+}
+
+struct Line {  // in the source: of the texels of a span
+  glm::vec2 start, step;
+};
+
+template <typename Texel>
+void sample_line(const View<Texel>& image, const Line& line, int n, Texel* out) {
+  for (int k = 0; k < n; ++k) store(sample(image, line.start + float(k) * line.step), out[k]);
+}
+
+// The same for pairs of floats, four texels at once; up to three beyond n are written, too.
+[[gnu::always_inline]] inline void sample_line(const View<glm::vec2>& image, const Line& line,
+                                               int n, glm::vec2* out) {
+  if (image.width_px < 2 || image.height_px < 2) {
+    for (int k = 0; k < n; ++k) store(sample(image, line.start + float(k) * line.step), out[k]);
+    return;
+  }
+  // Up to the last texel but one, so that there is always a next.
+  const float right = before_last(image.width_px), bottom = before_last(image.height_px);
+  const auto* pixels = reinterpret_cast<const float*>(image.pixels);
+  const std::size_t row = 2 * static_cast<std::size_t>(image.width_px);
+  const Float4 zero{}, count{0, 1, 2, 3};
+  for (int k = 0; k < n; k += 4) {
+    const Float4 at = float(k) + count;
+    const Float4 x = clamp(line.start.x + at * line.step.x, zero, zero + right);
+    const Float4 y = clamp(line.start.y + at * line.step.y, zero, zero + bottom);
+    const Int4 ix = __builtin_convertvector(x, Int4), iy = __builtin_convertvector(y, Int4);
+    const Float4 s = x - __builtin_convertvector(ix, Float4);
+    const Float4 t = y - __builtin_convertvector(iy, Float4);
+    const Int4 place = 2 * (iy * image.width_px + ix);
+    const auto mixed_rows = [&](int j) __attribute__((always_inline)) {
+      const float* texel = pixels + static_cast<std::uint32_t>(place[j]);
+      Float4 a, b;
+      __builtin_memcpy(&a, texel, sizeof a);
+      __builtin_memcpy(&b, texel + row, sizeof b);
+      return a + t[j] * (b - a);
+    };
+    for (int j = 0; j < 4; j += 2) {
+      const Float4 a = mixed_rows(j), b = mixed_rows(j + 1);
+      const Float4 left = __builtin_shufflevector(a, b, 0, 1, 4, 5);
+      const Float4 next = __builtin_shufflevector(a, b, 2, 3, 6, 7);
+      const Float4 mixed = left + Float4{s[j], s[j], s[j + 1], s[j + 1]} * (next - left);
+      __builtin_memcpy(out + k + j, &mixed, sizeof mixed);
     }
-    const int x0 = std::max(0.0, std::ceil(lo)), x1 = std::min<double>(width_px, std::ceil(hi));
-    if (x0 < x1) visit(x0, x1, y);
   }
 }
 
-// The affine map that takes one triangle to another: p -> linear * p + offset.
-struct Affine {
-  glm::dmat2 linear{1};
-  glm::dvec2 offset{0};
-  bool is_valid = false;
-};
-
-Affine make_affine(const std::array<glm::dvec2, 3>& from, const std::array<glm::dvec2, 3>& to) {
-  const glm::dmat2 a(from[1] - from[0], from[2] - from[0]), b(to[1] - to[0], to[2] - to[0]);
-  Affine out;
-  const double det = glm::determinant(a);
-  if (det == 0) return out;
-  out.linear = b * glm::inverse(a);
-  out.offset = to[0] - out.linear * from[0];
-  out.is_valid = std::isfinite(out.offset.x + out.offset.y);
-  return out;
+// Who has a texel: 0 nobody, else a chart's name, with kInside where the chart lies.
+constexpr std::uint16_t kInside = 0x8000;
+std::uint16_t name_of(std::uint32_t chart) {
+  return static_cast<std::uint16_t>(chart % (kInside - 1) + 1);
 }
 
-template <typename Pixel, typename Mix>
-auto bilinear(const Image<Pixel>& image, const glm::dvec2& at, Mix&& mix) {
-  const double x = std::clamp(at.x, 0.0, image.width_px - 1.0);
-  const double y = std::clamp(at.y, 0.0, image.height_px - 1.0);
-  const int x0 = static_cast<int>(x), y0 = static_cast<int>(y);
-  const int x1 = std::min(x0 + 1, image.width_px - 1), y1 = std::min(y0 + 1, image.height_px - 1);
-  const auto s = static_cast<float>(x - x0), t = static_cast<float>(y - y0);
-  return mix(image.at(x0, y0), image.at(x1, y0), image.at(x0, y1), image.at(x1, y1), s, t);
+// The same from the texels of one chart alone; of none where all are others'.
+template <typename Texel>
+Float4 sample_own(const View<Texel>& image, const std::uint16_t* owners, std::uint16_t name,
+                  const glm::vec2& at) {
+  const Footprint f(at, image.width_px, image.height_px);
+  const std::size_t first = image.offset(f.x, f.y);
+  const std::size_t down = f.dy ? static_cast<std::size_t>(image.width_px) : 0;
+  const std::array<std::size_t, 4> texels{first, first + std::size_t(f.dx), first + down,
+                                          first + down + std::size_t(f.dx)};
+  const std::array<float, 4> weights{(1 - f.s) * (1 - f.t), f.s * (1 - f.t), (1 - f.s) * f.t,
+                                     f.s * f.t};
+  Float4 sum{};
+  float weight = 0;
+  for (std::size_t k = 0; k < 4; ++k)
+    if ((owners[texels[k]] & ~kInside) == name)
+      sum += weights[k] * load(image.pixels[texels[k]]), weight += weights[k];
+  return weight > 1e-3f ? sum / weight : sample(image, at);
 }
 
-glm::vec2 sample(const IndexMap& map, const glm::dvec2& at) {
-  return bilinear(map, at, [](auto& a, auto& b, auto& c, auto& d, float s, float t) {
-    return glm::mix(glm::mix(a, b, s), glm::mix(c, d, s), t);
-  });
+glm::vec2 outward(const glm::vec2& edge, bool is_clockwise) {
+  const float length = glm::length(edge);
+  if (!(length > 0)) return glm::vec2(0);
+  return (is_clockwise ? glm::vec2(-edge.y, edge.x) : glm::vec2(edge.y, -edge.x)) / length;
+}
+
+float area2(const TexelTriangle& p) {
+  const glm::vec2 a = p[1] - p[0], b = p[2] - p[0];
+  return a.x * b.y - a.y * b.x;
 }
 
 }  // namespace
 
-IndexMap make_index_map(int width_px, int height_px) {
-  IndexMap map(width_px, height_px);
+template <typename Texel>
+class TextureAdapter<Texel>::Engine {
+ public:
+  Engine(const AdaptationLog& log, Image<Texel> image, std::size_t n_collapsed,
+         const AdaptOptions& options)
+      : log_(log),
+        width_px_(image.width_px),
+        height_px_(image.height_px),
+        pixels_(image.pixels.begin(), image.pixels.end()),
+        owners_(pixels_.size()),
+        n_collapsed_(n_collapsed),
+        options_(options) {
+    if (options_.n_threads <= 0) options_.n_threads = hardware_threads();
+    for (int x = 0; x < width_px_; ++x) own_u_.push_back(own_u(x, width_px_));
+    for (int y = 0; y < height_px_; ++y) own_v_.push_back(own_v(y, height_px_));
+    threads_.resize(static_cast<std::size_t>(options_.n_threads));
+  }
+
+  void claim(std::span<const std::array<glm::vec2, 3>> faces,
+             std::span<const std::uint32_t> charts);
+  void go_to(std::size_t n_collapsed);
+
+  const AdaptationLog& log_;
+  int width_px_, height_px_;
+  LargeVector<Texel> pixels_;
+  std::vector<float> own_u_, own_v_;  // what texels held at first, by column and row
+  LargeVector<std::uint16_t> owners_;
+  std::size_t n_collapsed_;
+  AdaptOptions options_;
+  AdaptCounts counts_;
+
+ private:
+  struct Span {
+    std::uint32_t offset;
+    std::uint16_t n, owner;  // as it will be
+  };
+  // Memory of one thread, for one adaptation at a time.
+  struct Scratch {
+    std::vector<glm::vec2> from, to;
+    std::vector<Span> spans;  // these sizes are room
+    std::vector<Texel> values;
+    std::size_t n_spans = 0, n_values = 0;  // in use
+    std::size_t n_texels = 0, n_conflicts = 0;
+
+    void add_span(const Span& span) { spans[n_spans++] = span; }
+    // For all texels of a triangle and what sample_line() may write beyond; returns the first's.
+    Texel* make_room(const TexelTriangle& p) {
+      const auto [x0, x1] = std::minmax({p[0].x, p[1].x, p[2].x});
+      const auto [y0, y1] = std::minmax({p[0].y, p[1].y, p[2].y});
+      const auto n_rows = static_cast<std::size_t>(y1 - y0) + 2;
+      const auto n = n_rows * (static_cast<std::size_t>(x1 - x0) + 2) + 4;
+      if (spans.size() < n_spans + n_rows) spans.resize(2 * (n_spans + n_rows));
+      if (values.size() < n_values + n) values.resize(2 * (n_values + n));
+      return values.data() + n_values;
+    }
+  };
+  struct Cell {  // and how to read it
+    TexelTriangle from, to;
+    std::uint16_t name;
+    bool is_original, is_guarded;
+  };
+
+  void fill_own(int x, int y, int n, Texel* out) const {
+    if constexpr (kIsIndex<Texel>)
+      for (int k = 0; k < n; ++k)
+        store(Float4{own_u_[static_cast<std::size_t>(x + k)], own_v_[static_cast<std::size_t>(y)]},
+              out[k]);
+  }
+  std::size_t offset(int x, int y) const { return view().offset(x, y); }
+  View<Texel> view() const { return {pixels_.data(), width_px_, height_px_}; }
+  TexelTriangle corners(const std::array<glm::vec2, 3>& uv) const {
+    TexelTriangle out;
+    for (std::size_t k = 0; k < 3; ++k) out[k] = to_texels(uv[k], width_px_, height_px_);
+    return out;
+  }
+  void fetch(std::size_t collapse) const;
+  void adapt(std::size_t collapse, bool is_collapse, Scratch& scratch);
+  void gather_cell(const Cell& cell, Scratch& scratch) const;
+  void gather_gutter(const Cell& cell, std::size_t k, Scratch& scratch) const;
+  void release(const Adaptation& adaptation, const Scratch& scratch);
+  void write_inside(Scratch& scratch);
+  void write_border(Scratch& scratch);
+
+  std::vector<Scratch> threads_;
+};
+
+// Texels inside first, then gutters around them.
+template <typename Texel>
+void TextureAdapter<Texel>::Engine::claim(std::span<const std::array<glm::vec2, 3>> faces,
+                                          std::span<const std::uint32_t> charts) {
+  for (std::size_t f = 0; f < faces.size(); ++f)
+    for_each_span_within(corners(faces[f]), width_px_, height_px_, [&](int x0, int x1, int y) {
+      std::uint16_t* owner = &owners_[offset(x0, y)];
+      for (int k = 0; k < x1 - x0; ++k)
+        if (owner[k] == 0) owner[k] = kInside | name_of(charts[f]);
+    });
+  const int reach = static_cast<int>(kGutter);
+  for (int step = 0; step < reach; ++step) {
+    const LargeVector<std::uint16_t> last = owners_;
+    for (int y = 0; y < height_px_; ++y)
+      for (int x = 0; x < width_px_; ++x) {
+        std::uint16_t& owner = owners_[offset(x, y)];
+        if (owner != 0) continue;
+        for (int j = std::max(y - 1, 0); j <= std::min(y + 1, height_px_ - 1); ++j)
+          for (int i = std::max(x - 1, 0); i <= std::min(x + 1, width_px_ - 1); ++i)
+            owner = std::max<std::uint16_t>(owner, last[offset(i, j)] & ~kInside);
+      }
+  }
+}
+
+template <typename Texel>
+void TextureAdapter<Texel>::Engine::go_to(std::size_t n_collapsed) {
+  const bool is_collapse = n_collapsed > n_collapsed_;
+  const AdaptPacks packs =
+      pack_adaptations(log_, n_collapsed_, n_collapsed, width_px_, height_px_, options_.pack);
+  const int n_threads = options_.pack ? options_.n_threads : 1;
+  const auto ahead = static_cast<std::size_t>(n_threads);
+  parallel_rounds(packs.first, n_threads, [&](std::size_t i, int thread) {
+    if (i + ahead < packs.order.size()) fetch(packs.order[i + ahead]);
+    adapt(packs.order[i], is_collapse, threads_[static_cast<std::size_t>(thread)]);
+  });
+  n_collapsed_ = n_collapsed;
+  counts_.n_adaptations += packs.order.size();
+  counts_.n_packs += packs.size();
+  for (Scratch& scratch : threads_) {
+    counts_.n_texels += std::exchange(scratch.n_texels, 0);
+    counts_.n_conflicts += std::exchange(scratch.n_conflicts, 0);
+  }
+}
+
+// The texels of a star come from all over the map: hints that those of one are wanted soon.
+template <typename Texel>
+void TextureAdapter<Texel>::Engine::fetch(std::size_t collapse) const {
+  glm::vec2 lo(1e30f), hi(-1e30f);
+  for (const AdaptationPoint& point : log_.of(collapse).points) {
+    const glm::vec2 p = to_texels(point.before, width_px_, height_px_);
+    lo = glm::min(lo, p), hi = glm::max(hi, p);
+  }
+  const int x0 = std::clamp(static_cast<int>(lo.x), 0, width_px_ - 1);
+  const int x1 = std::clamp(static_cast<int>(hi.x) + 1, 0, width_px_ - 1);
+  const int y0 = std::clamp(static_cast<int>(lo.y), 0, height_px_ - 1);
+  const int y1 = std::clamp(static_cast<int>(hi.y) + 1, 0, height_px_ - 1);
+  constexpr int kLine = 64 / sizeof(Texel);
+  for (int y = y0; y <= y1; ++y)
+    for (int x = x0; x <= x1; x += kLine) __builtin_prefetch(&pixels_[offset(x, y)]);
+}
+
+template <typename Texel>
+void TextureAdapter<Texel>::Engine::adapt(std::size_t collapse, bool is_collapse,
+                                          Scratch& scratch) {
+  const Adaptation adaptation = log_.of(collapse);
+  scratch.from.clear(), scratch.to.clear(), scratch.n_spans = scratch.n_values = 0;
+  for (const AdaptationPoint& point : adaptation.points) {
+    const glm::vec2 before = to_texels(point.before, width_px_, height_px_);
+    const glm::vec2 after = to_texels(point.after, width_px_, height_px_);
+    scratch.from.push_back(is_collapse ? before : after);
+    scratch.to.push_back(is_collapse ? after : before);
+  }
+  bool has_border = false;
+  Cell cell;
+  cell.is_guarded = log_.n_charts > 1;
+  const auto visit_cells = [&](auto&& visit) {
+    for (const AdaptationTriangle& t : adaptation.triangles) {
+      for (std::size_t k = 0; k < 3; ++k)
+        cell.from[k] = scratch.from[t.corners[k]], cell.to[k] = scratch.to[t.corners[k]];
+      cell.name = name_of(t.chart);
+      cell.is_original = kIsIndex<Texel> && !is_collapse && t.is_original();
+      visit(t);
+    }
+  };
+  visit_cells([&](const AdaptationTriangle& t) {
+    gather_cell(cell, scratch);
+    has_border = has_border || t.has_border();
+  });
+  if (!has_border) return write_inside(scratch);
+  visit_cells([&](const AdaptationTriangle& t) {
+    for (std::size_t k = 0; k < 3; ++k)
+      if (t.is_border(k)) gather_gutter(cell, k, scratch);
+  });
+  release(adaptation, scratch);
+  write_border(scratch);
+}
+
+template <typename Texel>
+void TextureAdapter<Texel>::Engine::gather_cell(const Cell& cell, Scratch& scratch) const {
+  const int w = width_px_, h = height_px_;
+  const TexelAffine source = make_affine(cell.to, cell.from);
+  Texel* values = scratch.make_room(cell.to);
+  Span* span = scratch.spans.data() + scratch.n_spans;
+  const auto owner = static_cast<std::uint16_t>(kInside | cell.name);
+  for_each_span_within(
+      cell.to, w, h, [&](int x0, int x1, int y) __attribute__((always_inline)) {
+        const int n = x1 - x0;
+        *span++ = {static_cast<std::uint32_t>(offset(x0, y)), static_cast<std::uint16_t>(n), owner};
+        const Line line{source(glm::vec2(x0, y)), source.x};
+        if (cell.is_original)
+          fill_own(x0, y, n, values);
+        else if (!cell.is_guarded)
+          sample_line(view(), line, n, values);
+        else
+          for (int k = 0; k < n; ++k)
+            store(sample_own(view(), owners_.data(), cell.name, line.start + float(k) * line.step),
+                  values[k]);
+        values += n;
+      });
+  scratch.n_values = static_cast<std::size_t>(values - scratch.values.data());
+  scratch.n_spans = static_cast<std::size_t>(span - scratch.spans.data());
+}
+
+// The strip beyond the edge from corner k to the next, continued from the cell.
+template <typename Texel>
+void TextureAdapter<Texel>::Engine::gather_gutter(const Cell& cell, std::size_t k,
+                                                  Scratch& scratch) const {
+  const int w = width_px_, h = height_px_;
+  const TexelAffine source = make_affine(cell.to, cell.from);
+  const glm::vec2 p = cell.to[k], edge = cell.to[(k + 1) % 3] - p;
+  const glm::vec2 out = outward(edge, area2(cell.to) < 0);
+  const float length = glm::length(edge);
+  if (!(length > 0)) return;
+  const glm::vec2 along = kGutter / length * edge;
+  const std::array<glm::vec2, 4> strip{p - along, p + edge + along,
+                                       p + edge + along + kGutter * out, p - along + kGutter * out};
+  const glm::vec2 q = cell.from[k], from_edge = cell.from[(k + 1) % 3] - q;
+  const glm::vec2 from_out = outward(from_edge, area2(cell.from) < 0);
+  const float from_length = glm::length(from_edge);
+  const glm::vec2 from_along = from_length > 0 ? from_edge / from_length : glm::vec2(0);
+  // No farther from the edge than there are texels of the chart.
+  const auto limit = [&](const glm::vec2& at) {
+    const float beyond = glm::dot(at - q, from_out), t = glm::dot(at - q, from_along);
+    return at - std::max(beyond - kGutterReach, 0.0f) * from_out +
+           (std::clamp(t, -kGutterReach, from_length + kGutterReach) - t) * from_along;
+  };
+  for (const TexelTriangle& half :
+       {TexelTriangle{strip[0], strip[1], strip[2]}, {strip[0], strip[2], strip[3]}}) {
+    scratch.make_room(half);
+    for_each_span_within(half, w, h, [&](int x0, int x1, int y) {
+      scratch.add_span({static_cast<std::uint32_t>(offset(x0, y)),
+                        static_cast<std::uint16_t>(x1 - x0), cell.name});
+      Texel* values = scratch.values.data() + scratch.n_values;
+      scratch.n_values += static_cast<std::size_t>(x1 - x0);
+      if (cell.is_original) return fill_own(x0, y, x1 - x0, values);
+      for (int x = x0; x < x1; ++x, ++values)
+        store(sample_own(view(), owners_.data(), cell.name, limit(source(glm::vec2(x, y)))),
+              *values);
+    });
+  }
+}
+
+// What the star held is no chart's until it is written again.
+template <typename Texel>
+void TextureAdapter<Texel>::Engine::release(const Adaptation& adaptation, const Scratch& scratch) {
+  for (const AdaptationTriangle& t : adaptation.triangles)
+    for_each_span_within(
+        {scratch.from[t.corners[0]], scratch.from[t.corners[1]], scratch.from[t.corners[2]]},
+        width_px_, height_px_, [&](int x0, int x1, int y) {
+          std::uint16_t* owner = &owners_[offset(x0, y)];
+          for (int k = 0; k < x1 - x0; ++k)
+            if (owner[k] == (kInside | name_of(t.chart))) owner[k] = 0;
+        });
+}
+
+// Inside a chart the star stays the same.
+template <typename Texel>
+void TextureAdapter<Texel>::Engine::write_inside(Scratch& scratch) {
+  const Texel* value = scratch.values.data();
+  for (const Span& span : std::span(scratch.spans).first(scratch.n_spans)) {
+    Texel* texel = &pixels_[span.offset];
+    for (int k = 0; k < span.n; ++k) texel[k] = value[k];
+    value += span.n;
+  }
+  scratch.n_texels += scratch.n_values;
+}
+
+template <typename Texel>
+void TextureAdapter<Texel>::Engine::write_border(Scratch& scratch) {
+  const Texel* value = scratch.values.data();
+  for (const Span& span : std::span(scratch.spans).first(scratch.n_spans)) {
+    std::uint16_t* owner = &owners_[span.offset];
+    Texel* texel = &pixels_[span.offset];
+    const bool is_inside = span.owner & kInside;
+    for (int k = 0; k < span.n; ++k, ++value) {
+      if (owner[k] & kInside) {
+        scratch.n_conflicts += is_inside;
+        continue;
+      }
+      texel[k] = *value;
+      owner[k] = span.owner;
+    }
+    if (is_inside) scratch.n_texels += std::size_t(span.n);
+  }
+}
+
+template <typename Texel>
+TextureAdapter<Texel>::TextureAdapter(const AdaptationLog& log, Image<Texel> image,
+                                      std::span<const std::array<glm::vec2, 3>> faces,
+                                      std::span<const std::uint32_t> charts,
+                                      std::size_t n_collapsed, const AdaptOptions& options)
+    : engine_(std::make_unique<Engine>(log, std::move(image), n_collapsed, options)) {
+  engine_->claim(faces, charts);
+}
+
+template <typename Texel>
+TextureAdapter<Texel>::~TextureAdapter() = default;
+template <typename Texel>
+TextureAdapter<Texel>::TextureAdapter(TextureAdapter&&) noexcept = default;
+
+template <typename Texel>
+void TextureAdapter<Texel>::go_to(std::size_t n_collapsed) {
+  engine_->go_to(n_collapsed);
+}
+template <typename Texel>
+std::size_t TextureAdapter<Texel>::n_collapsed() const {
+  return engine_->n_collapsed_;
+}
+template <typename Texel>
+Image<Texel> TextureAdapter<Texel>::image() const {
+  Image<Texel> out;
+  out.width_px = engine_->width_px_, out.height_px = engine_->height_px_;
+  out.pixels.assign(engine_->pixels_.begin(), engine_->pixels_.end());
+  return out;
+}
+template <typename Texel>
+bool TextureAdapter<Texel>::is_inside(std::size_t texel) const {
+  return engine_->owners_[texel] & kInside;
+}
+template <typename Texel>
+const AdaptCounts& TextureAdapter<Texel>::counts() const {
+  return engine_->counts_;
+}
+
+template <typename Texel>
+Image<Texel> make_index_map(int width_px, int height_px) {
+  Image<Texel> map(width_px, height_px);
   for (int y = 0; y < height_px; ++y)
     for (int x = 0; x < width_px; ++x)
-      map.at(x, y) = {(x + 0.5) / width_px, 1 - (y + 0.5) / height_px};
+      store(Float4{own_u(x, width_px), own_v(y, height_px)}, map.at(x, y));
   return map;
 }
 
-void TextureAdapter::adapt(IndexMap& map, std::span<const TexturePair> pairs, bool is_collapse) {
-  samples_.clear();
-  for (const TexturePair& pair : pairs) {
-    std::array<glm::dvec2, 3> from, to;
-    for (std::size_t k = 0; k < 3; ++k) {
-      from[k] =
-          to_texels(is_collapse ? pair.before[k] : pair.after[k], map.width_px, map.height_px);
-      to[k] = to_texels(is_collapse ? pair.after[k] : pair.before[k], map.width_px, map.height_px);
-    }
-    const Affine source = make_affine(to, from);
-    if (!source.is_valid) continue;
-    for_each_span(to, map.width_px, map.height_px, [&](int x0, int x1, int y) {
-      glm::dvec2 at = source.linear * glm::dvec2(x0, y) + source.offset;
-      for (int x = x0; x < x1; ++x, at += source.linear[0])
-        samples_.push_back({map.offset(x, y), sample(map, at)});
-    });
-  }
-  for (const Sample& s : samples_) map.pixels[s.texel] = s.value;
-  ++counts_.n_adaptations;
-  counts_.n_texels += samples_.size();
+template <typename Texel>
+IndexMap float_from(const Image<Texel>& map) {
+  IndexMap out(map.width_px, map.height_px);
+  for (std::size_t i = 0; i < map.pixels.size(); ++i) store(load(map.pixels[i]), out.pixels[i]);
+  return out;
 }
 
 ImageRgba8 bake_texture(const IndexMap& map, const ImageRgba8& texture) {
   ImageRgba8 out(map.width_px, map.height_px);
-  for (std::size_t i = 0; i < map.pixels.size(); ++i) {
-    const glm::dvec2 at = to_texels(map.pixels[i], texture.width_px, texture.height_px);
-    out.pixels[i] = bilinear(texture, at, [](auto& a, auto& b, auto& c, auto& d, float s, float t) {
-      Rgba8 pixel;
-      for (std::size_t k = 0; k < 4; ++k) {
-        const float top = a[k] + s * (float(b[k]) - a[k]), low = c[k] + s * (float(d[k]) - c[k]);
-        pixel[k] = static_cast<std::uint8_t>(top + t * (low - top) + 0.5f);
-      }
-      return pixel;
-    });
-  }
+  const View<Rgba8> from{texture.pixels.data(), texture.width_px, texture.height_px};
+  for (std::size_t i = 0; i < map.pixels.size(); ++i)
+    store(sample(from, to_texels(map.pixels[i], texture.width_px, texture.height_px)),
+          out.pixels[i]);
   return out;
 }
+
+template class TextureAdapter<glm::vec2>;
+template class TextureAdapter<Unorm16Texel>;
+template class TextureAdapter<Unorm8Texel>;
+template class TextureAdapter<HalfTexel>;
+template class TextureAdapter<Rgba8>;
+template Image<glm::vec2> make_index_map(int, int);
+template Image<Unorm16Texel> make_index_map(int, int);
+template Image<Unorm8Texel> make_index_map(int, int);
+template Image<HalfTexel> make_index_map(int, int);
+template IndexMap float_from(const Image<glm::vec2>&);
+template IndexMap float_from(const Image<Unorm16Texel>&);
+template IndexMap float_from(const Image<Unorm8Texel>&);
+template IndexMap float_from(const Image<HalfTexel>&);
 
 }  // namespace viewcell

@@ -1,6 +1,10 @@
-// Indexing maps: texture coordinates of the original texture, which follow the collapses of a mesh.
+// Textures, and indexing maps in their stead, that follow the collapses of a progressive mesh.
 #pragma once
 
+#include <array>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -9,31 +13,69 @@
 
 namespace viewcell {
 
-/// Every texel holds its own place [Chen06 3.2.4].
-IndexMap make_index_map(int width_px, int height_px);
 
-/// Takes a map through the collapses of a log, one at a time, by bilinear samples. Texels whose
-/// centre lies in no cell stay. Follows: [Chen06 3.2.3].
+/// Coordinates of less precision: whole numbers / 65535, / 255, and 16-bit floats.
+struct Unorm16Texel {
+  std::array<std::uint16_t, 2> uv;
+};
+struct Unorm8Texel {
+  std::array<std::uint8_t, 2> uv;
+};
+struct HalfTexel {
+  std::array<std::uint16_t, 2> uv;
+};
+
+/// Every texel holds its own place [Chen06 3.2.4]. Texel: glm::vec2 or one of the above.
+template <typename Texel>
+Image<Texel> make_index_map(int width_px, int height_px);
+/// Exact.
+template <typename Texel>
+IndexMap float_from(const Image<Texel>& map);
+
+struct AdaptOptions {
+  int n_threads = 0;  ///< 0: all; the result does not depend on it
+  bool pack = true;   ///< disjoint collapses side by side; false: one after another
+};
+
+struct AdaptCounts {
+  std::size_t n_adaptations = 0;
+  std::size_t n_packs = 0;      ///< groups of adaptations that were made side by side
+  std::size_t n_texels = 0;     ///< written inside charts
+  std::size_t n_conflicts = 0;  ///< texels that a chart grew over though they are another's
+};
+
+/// A texture at some level of a progressive mesh, which follows it both ways. Texel: glm::vec2 and
+/// its like for an indexing map, Rgba8 for the texture itself, which blurs more.
+///
+/// Each texel of a star whose centre lies in a cell is sampled, bilinearly, where it lay before;
+/// all others stay. A split writes faces that are as in the finest mesh from the original instead
+/// of sampling them (indexing maps only), so a whole way back leaves no error behind. Around
+/// charts kGutter texels are continued beyond the border; samples take texels of their own chart
+/// alone. Follows: [Chen06 3.2.3, 3.3]. Differs: gutters, and charts kept apart.
+template <typename Texel>
 class TextureAdapter {
  public:
-  struct Counts {
-    std::size_t n_adaptations = 0, n_texels = 0;
-  };
+  /// image: as it is after n_collapsed collapses of the log. faces: the texture coordinates of the
+  /// mesh at that level, and their charts (log.charts). Keeps the log by reference.
+  TextureAdapter(const AdaptationLog& log, Image<Texel> image,
+                 std::span<const std::array<glm::vec2, 3>> faces,
+                 std::span<const std::uint32_t> charts, std::size_t n_collapsed = 0,
+                 const AdaptOptions& options = {});
+  ~TextureAdapter();
+  TextureAdapter(TextureAdapter&&) noexcept;
 
-  /// From before the collapse to after it, or back.
-  void collapse(IndexMap& map, std::span<const TexturePair> pairs) { adapt(map, pairs, true); }
-  void split(IndexMap& map, std::span<const TexturePair> pairs) { adapt(map, pairs, false); }
-  const Counts& counts() const { return counts_; }
+  /// Collapses or splits until just the first n_collapsed collapses are made.
+  void go_to(std::size_t n_collapsed);
+
+  std::size_t n_collapsed() const;
+  Image<Texel> image() const;  ///< a copy
+  /// Per texel 0 outside of all charts, and chart + 1 inside.
+  bool is_inside(std::size_t texel) const;
+  const AdaptCounts& counts() const;
 
  private:
-  struct Sample {
-    std::size_t texel;
-    glm::vec2 value;
-  };
-  void adapt(IndexMap& map, std::span<const TexturePair> pairs, bool is_collapse);
-
-  std::vector<Sample> samples_;  // of one adaptation, until all are taken
-  Counts counts_;
+  class Engine;
+  std::unique_ptr<Engine> engine_;
 };
 
 /// The texture as an index map shows it: an ordinary texture of the map's size.

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <span>
 
 namespace viewcell {
 
@@ -19,5 +20,11 @@ int hardware_threads();
 /// threw is rethrown here.
 void parallel_for(std::size_t n, int n_threads, const std::function<void(std::size_t)>& body,
                   const Progress& progress = {});
+
+/// Rounds of such iterations: calls body(i, thread) once for every i in [first[r], first[r + 1]), r
+/// after r; no round starts before the last one ended, and then sees all that it wrote. thread: in
+/// [0, n_threads), for memory of its own. An exception ends the loop, and is rethrown here.
+void parallel_rounds(std::span<const std::size_t> first, int n_threads,
+                     const std::function<void(std::size_t, int)>& body);
 
 }  // namespace viewcell

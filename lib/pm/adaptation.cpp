@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <tuple>
 
 #include "base/error.h"
 #include "pm/collapse_map.h"
@@ -9,11 +11,38 @@
 namespace viewcell {
 namespace {
 
+// Corners are 16-bit places.
+constexpr std::size_t kMostPoints = 65535;
+
 // The input as it stands before the first collapse, in the numbers of the record.
 struct Finest {
   WedgeMesh wedges;
-  std::vector<Triangle> triangles;  // of vertices
+  std::vector<Triangle> triangles;    // of vertices
+  std::vector<std::uint32_t> charts;  // of faces
+  std::size_t n_charts = 0;
 };
+
+// Charts: faces that are connected by wedges; numbers in the order of the faces.
+void find_charts(Finest& mesh) {
+  std::vector<std::uint32_t> parent(mesh.wedges.n_wedges());
+  std::iota(parent.begin(), parent.end(), 0u);
+  const auto root = [&](std::uint32_t w) {
+    while (parent[w] != w) w = parent[w] = parent[parent[w]];
+    return w;
+  };
+  for (const Triangle& f : mesh.wedges.faces)
+    for (std::size_t k = 1; k < 3; ++k) {
+      const std::uint32_t a = root(f[0]), b = root(f[k]);
+      parent[std::max(a, b)] = std::min(a, b);
+    }
+  constexpr std::uint32_t kNone = 0xffffffffu;
+  std::vector<std::uint32_t> chart_of(parent.size(), kNone);
+  for (const Triangle& f : mesh.wedges.faces) {
+    std::uint32_t& chart = chart_of[root(f[0])];
+    if (chart == kNone) chart = static_cast<std::uint32_t>(mesh.n_charts++);
+    mesh.charts.push_back(chart);
+  }
+}
 
 Finest make_finest(const ProgressiveRecord& record) {
   ProgressiveMesh mesh(record);
@@ -27,72 +56,188 @@ Finest make_finest(const ProgressiveRecord& record) {
     out.wedges.wedge_vertex.push_back(record.vertex_of[w < n ? w : record.extra_sources[w - n]]);
   out.wedges.faces = mesh.record().faces;
   out.triangles = out.wedges.vertex_triangles();
+  find_charts(out);
   return out;
 }
 
-double area2(const std::array<glm::dvec2, 4>& p, std::size_t j, std::size_t k) {
-  const glm::dvec2 a = p[j] - p[0], b = p[k] - p[0];
+double area2(const AdaptationPoint& a, const AdaptationPoint& b, const AdaptationPoint& c,
+             glm::vec2 AdaptationPoint::*place) {
+  const glm::dvec2 p(a.*place), q = glm::dvec2(b.*place) - p, r = glm::dvec2(c.*place) - p;
+  return q.x * r.y - q.y * r.x;
+}
+
+// Lays one collapse after another.
+class LogBuilder {
+ public:
+  explicit LogBuilder(const ProgressiveRecord& record)
+      : finest_(make_finest(record)),
+        mesh_(finest_.wedges.positions, finest_.triangles),
+        table_(finest_.wedges),
+        map_(mesh_, table_, finest_.wedges.positions, finest_.wedges.texcoords, Matching::nearest,
+             {.texture = true}) {
+    log_.charts = finest_.charts;
+    log_.n_charts = finest_.n_charts;
+    log_.first_point.reserve(record.splits.size() + 1);
+    log_.first_triangle.reserve(record.splits.size() + 1);
+    mark_start();
+  }
+
+  void collapse(std::uint32_t u, std::uint32_t v) {
+    if (!map_.lay(u, v) || map_.overlay().texture_points().size() > kMostPoints) {
+      ++log_.n_unmapped;
+    } else if (!add_points() || !add_cells()) {
+      log_.points.resize(log_.first_point.back());
+      log_.triangles.resize(log_.first_triangle.back());
+      ++log_.n_folded;
+    } else {
+      mark_borders();
+      log_.n_moved += map_.overlay().n_moved_points();
+    }
+    table_.match(mesh_, u, v, false);
+    mesh_.collapse(u, v, &trace_);
+    table_.apply(trace_);
+    map_.forget();
+    mark_start();
+  }
+  AdaptationLog& log() { return log_; }
+
+ private:
+  struct Edge {
+    std::uint16_t a, b;  // a < b
+    std::uint32_t at;    // 3 * triangle + place
+  };
+  void mark_start() {
+    log_.first_point.push_back(static_cast<std::uint32_t>(log_.points.size()));
+    log_.first_triangle.push_back(static_cast<std::uint32_t>(log_.triangles.size()));
+  }
+  bool add_points();
+  bool add_cells();
+  bool add_triangle(const AdaptationTriangle& triangle, double sign);
+  void mark_borders();
+  bool is_border(const Edge& edge) const;
+  bool has_neighbour(std::uint32_t face, std::uint32_t u) const;
+  double texture_area2(std::uint32_t face) const;
+  bool is_original(std::uint32_t face) const;
+
+  Finest finest_;
+  CollapseMesh mesh_;
+  WedgeTable table_;
+  CollapseMap map_;
+  CollapseTrace trace_;
+  AdaptationLog log_;
+  std::vector<Edge> edges_;
+  std::vector<std::uint32_t> faces_;  // old ones, of the collapse's triangles
+};
+
+double LogBuilder::texture_area2(std::uint32_t face) const {
+  std::array<glm::dvec2, 3> p;
+  for (std::uint32_t k = 0; k < 3; ++k)
+    p[k] = glm::dvec2(finest_.wedges.texcoords[table_.at(3 * face + k)]);
+  const glm::dvec2 a = p[1] - p[0], b = p[2] - p[0];
   return a.x * b.y - a.y * b.x;
 }
 
-// Appends the triangles of a cell; false when one turns over.
-bool add_pairs(const CellTexture& cell, double sign, std::vector<TexturePair>& out) {
-  for (std::size_t k = 2; k < 4; ++k) {
-    const double before = area2(cell.before, k - 1, k), after = area2(cell.after, k - 1, k);
-    if (before * sign < 0 || after * sign < 0) return false;
-    if (before == 0 && after == 0) continue;  // such as the half that a triangle has not
-    TexturePair& pair = out.emplace_back();
-    const std::array<std::size_t, 3> corners{0, k - 1, k};
-    for (std::size_t i = 0; i < 3; ++i) {
-      pair.before[i] = glm::vec2(cell.before[corners[i]]);
-      pair.after[i] = glm::vec2(cell.after[corners[i]]);
+bool LogBuilder::is_original(std::uint32_t face) const {
+  const Triangle& f = finest_.wedges.faces[face];
+  return table_.at(3 * face) == f[0] && table_.at(3 * face + 1) == f[1] &&
+         table_.at(3 * face + 2) == f[2];
+}
+
+bool LogBuilder::add_points() {
+  for (const TexturePoint& point : map_.overlay().texture_points()) {
+    log_.points.push_back({glm::vec2(point.before), glm::vec2(point.after)});
+    const glm::vec2 sum = log_.points.back().before + log_.points.back().after;
+    if (!std::isfinite(sum.x + sum.y)) return false;
+  }
+  return true;
+}
+
+// All cells of the collapse; those of a face turn the way that the face does.
+bool LogBuilder::add_cells() {
+  const FanOverlay& overlay = map_.overlay();
+  faces_.clear();
+  for (std::size_t i = 0; i < overlay.textures().size(); ++i) {
+    const std::uint32_t face = map_.faces()[overlay.cells()[i].old_face];
+    const CellCorners& c = overlay.textures()[i];
+    const double sign = texture_area2(face);
+    for (std::size_t k = 2; k < 4; ++k) {
+      AdaptationTriangle triangle{{}, 0, finest_.charts[face]};
+      triangle.flags = is_original(face) ? 8 : 0;
+      const std::array<std::uint32_t, 3> corners{c[0], c[k - 1], c[k]};
+      if (corners[0] == corners[1] || corners[1] == corners[2] || corners[0] == corners[2])
+        continue;
+      for (std::size_t j = 0; j < 3; ++j)
+        triangle.corners[j] = static_cast<std::uint16_t>(corners[j]);
+      if (!add_triangle(triangle, sign)) return false;
+      faces_.push_back(face);
     }
   }
   return true;
 }
 
-// All cells of a collapse; those of a face turn the way that the face does.
-bool add_cells(const CollapseMap& map, const WedgeTable& table,
-               std::span<const glm::vec2> texcoords, std::vector<TexturePair>& out) {
-  for (std::size_t i = 0; i < map.overlay().textures().size(); ++i) {
-    const std::uint32_t face = map.faces()[map.overlay().cells()[i].old_face];
-    std::array<glm::dvec2, 4> corners{};
-    for (std::uint32_t k = 0; k < 3; ++k)
-      corners[k] = glm::dvec2(texcoords[table.at(3 * face + k)]);
-    if (!add_pairs(map.overlay().textures()[i], area2(corners, 1, 2), out)) return false;
-  }
+// False when it turns over.
+bool LogBuilder::add_triangle(const AdaptationTriangle& triangle, double sign) {
+  const AdaptationPoint* p = &log_.points[log_.first_point.back()];
+  const auto& [a, b, c] = triangle.corners;
+  if (area2(p[a], p[b], p[c], &AdaptationPoint::before) * sign < 0) return false;
+  if (area2(p[a], p[b], p[c], &AdaptationPoint::after) * sign < 0) return false;
+  log_.triangles.push_back(triangle);
   return true;
+}
+
+// Another face has the edge opposite to u, with the same texture coordinates.
+bool LogBuilder::has_neighbour(std::uint32_t face, std::uint32_t u) const {
+  std::uint32_t k = 0;
+  while (mesh_.vertex_at(3 * face + k) != u) ++k;
+  const std::uint32_t a = 3 * face + (k + 1) % 3, b = 3 * face + (k + 2) % 3;
+  bool found = false;
+  mesh_.for_each_corner(mesh_.vertex_at(a), [&](std::uint32_t c) {
+    if (c / 3 == face || table_.at(c) != table_.at(a)) return;
+    for (std::uint32_t j = 1; j < 3; ++j)
+      found = found || table_.at(3 * (c / 3) + (c + j) % 3) == table_.at(b);
+  });
+  return found;
+}
+
+// Of an edge of one triangle only: it ends in u, or no face outside the star has it.
+bool LogBuilder::is_border(const Edge& edge) const {
+  const auto& points = map_.overlay().texture_points();
+  return points[edge.a].is_old_apex || points[edge.b].is_old_apex ||
+         !has_neighbour(faces_[edge.at / 3], map_.u());
+}
+
+void LogBuilder::mark_borders() {
+  AdaptationTriangle* triangles = log_.triangles.data() + log_.first_triangle.back();
+  edges_.clear();
+  for (std::uint32_t t = 0; t < faces_.size(); ++t)
+    for (std::uint32_t k = 0; k < 3; ++k) {
+      const auto a = triangles[t].corners[k], b = triangles[t].corners[(k + 1) % 3];
+      edges_.push_back({std::min(a, b), std::max(a, b), 3 * t + k});
+    }
+  std::sort(edges_.begin(), edges_.end(), [](const Edge& l, const Edge& r) {
+    return std::tie(l.a, l.b, l.at) < std::tie(r.a, r.b, r.at);
+  });
+  const auto same = [&](std::size_t i, std::size_t j) {
+    return edges_[i].a == edges_[j].a && edges_[i].b == edges_[j].b;
+  };
+  for (std::size_t i = 0; i < edges_.size(); ++i) {
+    if ((i > 0 && same(i, i - 1)) || (i + 1 < edges_.size() && same(i, i + 1))) continue;
+    AdaptationTriangle& t = triangles[edges_[i].at / 3];
+    if (is_border(edges_[i]))
+      t.flags = static_cast<std::uint16_t>(t.flags | 1u << edges_[i].at % 3);
+  }
 }
 
 }  // namespace
 
 AdaptationLog make_adaptation_log(const ProgressiveRecord& record, const Progress& progress) {
   VIEWCELL_CHECK(!record.is_full_edge() && !record.texcoords.empty());
-  const Finest finest = make_finest(record);
-  CollapseMesh mesh(finest.wedges.positions, finest.triangles);
-  WedgeTable table(finest.wedges);
-  CollapseMap map(mesh, table, finest.wedges.positions, finest.wedges.texcoords, Matching::nearest,
-                  {.texture = true});
-  AdaptationLog log;
-  log.first.reserve(record.splits.size() + 1);
-  CollapseTrace trace;
+  LogBuilder builder(record);
   for (std::size_t i = record.splits.size(); i-- > 0;) {
-    const std::uint32_t u = record.splits[i].child, v = record.splits[i].parent;
-    log.first.push_back(static_cast<std::uint32_t>(log.pairs.size()));
-    if (!map.lay(u, v)) {
-      ++log.n_unmapped;
-    } else if (!add_cells(map, table, finest.wedges.texcoords, log.pairs)) {
-      log.pairs.resize(log.first.back());
-      ++log.n_folded;
-    }
-    table.match(mesh, u, v, false);
-    mesh.collapse(u, v, &trace);
-    table.apply(trace);
-    map.forget();
+    builder.collapse(record.splits[i].child, record.splits[i].parent);
     if (progress && i % 1024 == 0) progress(record.splits.size() - i, record.splits.size());
   }
-  log.first.push_back(static_cast<std::uint32_t>(log.pairs.size()));
-  return log;
+  return std::move(builder.log());
 }
 
 }  // namespace viewcell

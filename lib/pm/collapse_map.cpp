@@ -13,6 +13,10 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
+// In the texture u keeps this far from the edges of its new face, as a weight of a corner: cells
+// at an edge would vanish.
+constexpr double kInside = 1.0 / 64;
+
 double cross2(const glm::dvec2& a, const glm::dvec2& b) {
   return a.x * b.y - a.y * b.x;
 }
@@ -108,7 +112,8 @@ void CollapseMap::choose_on_edge(const Sector& sector, Place& place) const {
   } else {
     t = closest_on_segment(glm::dvec3(0), place.apex, far.to);
   }
-  place.after = {glm::mix(place.apex, far.to, t), glm::mix(v.uv, far.uv, t)};
+  const double inside = matching_ == Matching::texture ? t : std::clamp(t, kInside, 1 - kInside);
+  place.after = {glm::mix(place.apex, far.to, t), glm::mix(v.uv, far.uv, inside)};
 }
 
 // The new face that u's texture coordinates lie in, or the one that they are least outside of.
@@ -147,7 +152,8 @@ void CollapseMap::choose_by_distance(const Sector& sector, Place& place) const {
   }
   if (overlay_.keeps_texture() && best < kInfinity) {
     const CollapseStar::Rim &v = rim[0], &b = rim[place.middle], &c = rim[place.middle + 1];
-    const glm::dvec3 w = barycentric(place.after.at, place.apex, b.to, c.to);
+    glm::dvec3 w = barycentric(place.after.at, place.apex, b.to, c.to);
+    w = (w + glm::dvec3(kInside)) / (1 + 3 * kInside);
     place.after.texture = w.x * v.uv + w.y * b.uv + w.z * c.uv;
   }
 }

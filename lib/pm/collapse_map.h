@@ -59,6 +59,8 @@ class CollapseMap {
   void for_each_place(Visit&& visit) const {
     for (const Place& p : last_) visit(p.face, -make_double4(p.after.at));
   }
+  /// The vertex that goes, or moves.
+  std::uint32_t u() const { return star_.of(); }
   /// The faces of u, by their numbers in the mesh, and those that take over from lone triangles.
   std::span<const std::uint32_t> faces() const { return star_.faces(); }
   /// Of the last lay() or lay_move(); faces are places in faces().

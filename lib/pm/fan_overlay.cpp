@@ -15,6 +15,37 @@ double cross2(const glm::dvec2& a, const glm::dvec2& b) {
   return a.x * b.y - a.y * b.x;
 }
 
+// The least distance of corners along an edge, and of its ends, as a share of it. Less makes cells
+// thinner than any texel, and what goes into them does not come back.
+constexpr double kGap = 1.0 / 64;
+
+// Makes shares of an edge rise by a gap each, from 0 to 1, with the least squared change. Returns
+// whether some had to change. [Barlow et al. 1972, pool adjacent violators]
+bool space_out(std::vector<double>& along, std::vector<std::pair<double, double>>& pools) {
+  const auto n = static_cast<double>(along.size());
+  const double gap = std::min(kGap, 0.5 / (n + 1));
+  bool changes = false;
+  for (std::size_t i = 0; i < along.size(); ++i)
+    changes = changes || along[i] - (i > 0 ? along[i - 1] : 0) < gap;
+  if (!changes && (along.empty() || along.back() <= 1 - gap)) return false;
+  pools.clear();
+  for (std::size_t i = 0; i < along.size(); ++i) {
+    pools.emplace_back(along[i] - double(i + 1) * gap, 1);
+    while (pools.size() > 1 && pools[pools.size() - 2].first > pools.back().first) {
+      const auto [mean, weight] = pools.back();
+      pools.pop_back();
+      auto& into = pools.back();
+      into.first = (into.first * into.second + mean * weight) / (into.second + weight);
+      into.second += weight;
+    }
+  }
+  std::size_t i = 0;
+  for (const auto& [mean, weight] : pools)
+    for (double k = 0; k < weight; ++k, ++i)
+      along[i] = std::clamp(mean, 0.0, 1 - (n + 1) * gap) + double(i + 1) * gap;
+  return true;
+}
+
 }  // namespace
 
 double FanOverlay::largest_shift() const {
@@ -25,6 +56,8 @@ void FanOverlay::clear() {
   cells_.clear();
   moments_.clear();
   textures_.clear();
+  points_.clear();
+  n_moved_points_ = 0;
   largest2_ = 0;
 }
 
@@ -33,26 +66,39 @@ void FanOverlay::start(const FanPoint& new_apex, const glm::dvec2& origin, bool 
   apex_texture_ = new_apex.texture;
   origin_ = origin;
   is_backward_ = is_mirrored_ = is_backward;
+  old_apex_point_ = new_apex_point_ = kNone;
   rays_.clear();
 }
 
 void FanOverlay::add_ray(const FanPoint& place, std::uint32_t face) {
   const Double4 to = make_double4(place.at), from_apex = to - apex_;
   rays_.push_back({to, from_apex, dot(to, to), dot(from_apex, from_apex), dot(to, apex_),
-                   dot(from_apex, apex_), place.texture, face});
+                   dot(from_apex, apex_), place.texture, face,
+                   keep_.texture ? add_point(place.texture, place.texture) : kNone});
 }
 
-FanOverlay::Corner FanOverlay::old_apex(const FanPoint& after) const {
-  return {-make_double4(after.at), Double4{}, glm::dvec2(0), after.texture};
+std::uint32_t FanOverlay::add_point(const glm::dvec2& before, const glm::dvec2& after) {
+  points_.push_back({origin_ + before, origin_ + after});
+  return static_cast<std::uint32_t>(points_.size() - 1);
 }
 
-FanOverlay::Corner FanOverlay::new_apex(const FanPoint& before) const {
+FanOverlay::Corner FanOverlay::old_apex(const FanPoint& after) {
+  if (keep_.texture && old_apex_point_ == kNone) {
+    old_apex_point_ = add_point(glm::dvec2(0), after.texture);
+    points_.back().is_old_apex = true;
+  }
+  return {-make_double4(after.at), Double4{}, old_apex_point_};
+}
+
+FanOverlay::Corner FanOverlay::new_apex(const FanPoint& before) {
+  if (keep_.texture && new_apex_point_ == kNone)
+    new_apex_point_ = add_point(before.texture, apex_texture_);
   const Double4 place = make_double4(before.at);
-  return {place - apex_, place, before.texture, apex_texture_};
+  return {place - apex_, place, new_apex_point_};
 }
 
 FanOverlay::Corner FanOverlay::on_rim(const Ray& ray) const {
-  return {Double4{}, ray.to, ray.texture, ray.texture};
+  return {Double4{}, ray.to, ray.point};
 }
 
 void FanOverlay::add_old_apex(std::size_t ray, const FanPoint& after) {
@@ -67,6 +113,7 @@ void FanOverlay::add_lone(std::uint32_t heir, const FanPoint& after) {
   add_apex(0, heir, old_apex(after));
   cells_.push_back({heir, heir});
   if (keep_.moments) moments_.emplace_back();
+  if (keep_.texture) textures_.emplace_back();
 }
 
 void FanOverlay::add_apex(std::size_t ray, std::uint32_t new_face, const Corner& apex) {
@@ -94,8 +141,43 @@ FanOverlay::Corner FanOverlay::cross(const Ray& old_edge, const Ray& new_edge) {
   const Double4 before = s * old_edge.to, shift = before - apex_ - t * new_edge.from_apex;
   largest2_ = std::max(largest2_, dot(shift, shift));
   if (!keep_.texture) return {shift, before};
-  return {shift, before, s * old_edge.texture,
-          apex_texture_ + t * (new_edge.texture - apex_texture_)};
+  crossings_.push_back({s, t});
+  return {shift, before, add_point(glm::dvec2(0), glm::dvec2(0))};
+}
+
+// Along old edge i the crossings with new edges i + 1 ... middle come ever nearer to the old apex;
+// along new edge j those with old edges 1 ... j - 1 go ever farther from the new apex.
+void FanOverlay::order_crossings(std::size_t middle) {
+  const auto at = [&](std::size_t i, std::size_t j) -> Crossing& {
+    return crossings_[(i - 1) * middle - i * (i - 1) / 2 + (j - i - 1)];
+  };
+  for (std::size_t i = 1; i < middle; ++i) {
+    along_.clear();
+    for (std::size_t j = middle; j > i; --j) along_.push_back(at(i, j).s);
+    if (!space_out(along_, pools_)) continue;
+    ++n_moved_points_;
+    for (std::size_t j = middle; j > i; --j) at(i, j).s = along_[middle - j];
+  }
+  for (std::size_t j = 2; j <= middle; ++j) {
+    along_.clear();
+    for (std::size_t i = 1; i < j; ++i) along_.push_back(at(i, j).t);
+    if (!space_out(along_, pools_)) continue;
+    ++n_moved_points_;
+    for (std::size_t i = 1; i < j; ++i) at(i, j).t = along_[i - 1];
+  }
+}
+
+// The points of a side's crossings, which were added as the last ones, row by row.
+template <typename RayAt>
+void FanOverlay::place_crossings(std::size_t middle, const RayAt& ray) {
+  order_crossings(middle);
+  std::size_t k = 0;
+  for (std::size_t i = 1; i < middle; ++i)
+    for (std::size_t j = i + 1; j <= middle; ++j, ++k) {
+      TexturePoint& point = points_[points_.size() - crossings_.size() + k];
+      point.before = origin_ + crossings_[k].s * ray(i).texture;
+      point.after = origin_ + glm::mix(apex_texture_, ray(j).texture, crossings_[k].t);
+    }
 }
 
 void FanOverlay::add_side(std::size_t first, bool is_forward, std::size_t middle,
@@ -110,16 +192,19 @@ void FanOverlay::add_side(std::size_t first, bool is_forward, std::size_t middle
   is_mirrored_ = is_backward_ != is_forward;
   row_.assign(beyond + 1, new_apex(before));
   next_row_.resize(beyond + 1);
+  const Corner apex = old_apex(after);
+  crossings_.clear();
   for (std::size_t i = 0; i < middle; ++i) {
     next_row_[i + 1] = on_rim(ray(i + 1));
     for (std::size_t j = i + 2; j < beyond; ++j) next_row_[j] = cross(ray(i + 1), ray(j));
-    next_row_[beyond] = old_apex(after);
+    next_row_[beyond] = apex;
     for (std::size_t j = std::max<std::size_t>(i, 1); j <= middle; ++j) {
       const Corner& last = j > i ? next_row_[j] : next_row_[j + 1];
       add_cell(face(i), face(j), {row_[j], row_[j + 1], next_row_[j + 1], last});
     }
     std::swap(row_, next_row_);
   }
+  if (keep_.texture) place_crossings(middle, ray);
   is_mirrored_ = is_backward_;
 }
 
@@ -135,13 +220,8 @@ void FanOverlay::add_cell(std::uint32_t old_face, std::uint32_t new_face, const 
   cells_.push_back({old_face, new_face, {l - kOutward * far, h + kOutward * far}});
   if (keep_.moments) add_moments(around);
   if (!keep_.texture) return;
-  CellTexture& texture = textures_.emplace_back();
-  std::array<const Corner*, 4> corners{&a, &b, &c, &d};
+  CellCorners& corners = textures_.emplace_back(CellCorners{a.point, b.point, c.point, d.point});
   if (is_mirrored_) std::swap(corners[1], corners[3]);
-  for (std::size_t i = 0; i < 4; ++i) {
-    texture.before[i] = origin_ + corners[i]->old_texture;
-    texture.after[i] = origin_ + corners[i]->new_texture;
-  }
 }
 
 void FanOverlay::add_moments(const Around& around) {

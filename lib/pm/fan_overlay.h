@@ -29,11 +29,15 @@ struct CellMoments {
   double square = 0;   ///< mean squared length of the shift
 };
 
-/// The corners of a cell in the texture, of its part of the old and of the new face, in the winding
-/// of the faces; of a triangle two neighbours are the same.
-struct CellTexture {
-  std::array<glm::dvec2, 4> before, after;
+/// A corner of cells in the texture: its place in the old faces and in the new ones.
+struct TexturePoint {
+  glm::dvec2 before, after;
+  bool is_old_apex = false;
 };
+
+/// The corners of a cell as places in texture_points(), in the winding of the faces; of a triangle
+/// two neighbours are the same.
+using CellCorners = std::array<std::uint32_t, 4>;
 
 /// A point relative to the old fan's apex, in space and in the texture.
 struct FanPoint {
@@ -43,6 +47,10 @@ struct FanPoint {
 
 /// The old fan's apex is the origin. Each corner of a cell has a point on the old and one on the
 /// new surface.
+///
+/// In the texture corners keep their order along each edge and some distance from each other, so
+/// that no cell folds or vanishes where the faces do not. Differs from [Chen06 3.2.2], where points
+/// that are nearest may pass each other (trap 10).
 class FanOverlay {
  public:
   /// What is made of cells beside what MapCell has.
@@ -76,16 +84,23 @@ class FanOverlay {
   void add_lone(std::uint32_t heir, const FanPoint& after);
 
   const std::vector<MapCell>& cells() const { return cells_; }
-  /// Beside the cells, if asked for. The unchanged heir of a lone face has no texture.
+  /// Beside the cells, if asked for. Of the unchanged heir of a lone face all corners are 0.
   const std::vector<CellMoments>& moments() const { return moments_; }
-  const std::vector<CellTexture>& textures() const { return textures_; }
+  const std::vector<CellCorners>& textures() const { return textures_; }
+  const std::vector<TexturePoint>& texture_points() const { return points_; }
+  /// Crossings that had to be moved along their edges.
+  std::size_t n_moved_points() const { return n_moved_points_; }
   /// The longest distance of a corner's two points.
   double largest_shift() const;
 
  private:
+  static constexpr std::uint32_t kNone = 0xffffffffu;
   struct Corner {
     Double4 shift{}, before{};  // old minus new point, and the old one
-    glm::dvec2 old_texture{0}, new_texture{0};
+    std::uint32_t point = 0;    // in the texture
+  };
+  struct Crossing {
+    double s, t;  // along the old edge from the old apex, along the new edge from the new apex
   };
   struct Around {  // of a cell; of a triangle, c and d are the same
     const Corner &a, &b, &c, &d;
@@ -96,11 +111,16 @@ class FanOverlay {
     double to_a, from_apex_a;  // dot products with the new apex
     glm::dvec2 texture;
     std::uint32_t face;
+    std::uint32_t point;  // in the texture
   };
   Corner cross(const Ray& old_edge, const Ray& new_edge);
-  Corner old_apex(const FanPoint& after) const;
-  Corner new_apex(const FanPoint& before) const;
+  Corner old_apex(const FanPoint& after);
+  Corner new_apex(const FanPoint& before);
   Corner on_rim(const Ray& ray) const;
+  std::uint32_t add_point(const glm::dvec2& before, const glm::dvec2& after);
+  void order_crossings(std::size_t middle);
+  template <typename RayAt>
+  void place_crossings(std::size_t middle, const RayAt& ray);
   void add_apex(std::size_t ray, std::uint32_t new_face, const Corner& apex);
   void add_cell(std::uint32_t old_face, std::uint32_t new_face, const Around& around);
   void add_moments(const Around& around);
@@ -109,11 +129,17 @@ class FanOverlay {
   Keep keep_;
   std::vector<MapCell> cells_;
   std::vector<CellMoments> moments_;
-  std::vector<CellTexture> textures_;
+  std::vector<CellCorners> textures_;
+  std::vector<TexturePoint> points_;
+  std::size_t n_moved_points_ = 0;
   double largest2_ = 0;
   Double4 apex_{};
   glm::dvec2 apex_texture_{0}, origin_{0};
   bool is_backward_ = false, is_mirrored_ = false;  // the rays; the cells that are added
+  std::uint32_t old_apex_point_ = kNone, new_apex_point_ = kNone;
+  std::vector<Crossing> crossings_;  // of a side: old edge 1 with new edges 2, 3, ...; old edge 2
+  std::vector<double> along_;        // of one edge
+  std::vector<std::pair<double, double>> pools_;
   std::vector<Ray> rays_;
   std::vector<Corner> row_, next_row_;
 };

@@ -62,6 +62,7 @@ class ProgressiveMesh {
   std::size_t n_faces() const { return n_faces_; }
   std::size_t n_base_faces() const { return n_base_faces_; }
   std::size_t n_splits() const { return record_.splits.size(); }
+  bool has_face(std::size_t face) const { return is_alive_[face]; }
   /// Splits made so far: 0 at the base, n_splits() at the input.
   std::size_t level() const { return level_; }
   /// The cost of the collapse that made this level from the next finer one; 0 at the input.
