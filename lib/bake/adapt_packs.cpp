@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "bake/texel_raster.h"
+#include "bake/texel_spans.h"
 #include "image/image.h"
 
 namespace viewcell {

@@ -15,34 +15,39 @@ inline glm::dvec2 to_texels(const glm::vec2& uv, int width_px, int height_px) {
   return {uv.x * double(width_px) - 0.5, (1 - double(uv.y)) * height_px - 0.5};
 }
 
-/// x where an edge crosses a row; to the bit the same for both triangles at the edge.
-inline double cross_row(glm::dvec2 a, glm::dvec2 b, double y) {
-  if (b.y < a.y || (b.y == a.y && b.x < a.x)) std::swap(a, b);
-  return a.x + (b.x - a.x) * ((y - a.y) / (b.y - a.y));
-}
+/// Three such places, of float or double.
+template <typename Real>
+using TexelTriangleOf = std::array<glm::vec<2, Real>, 3>;
+using TexelTriangle = TexelTriangleOf<float>;
 
-/// Calls visit(x0, x1, y) for the texels [x0, x1) of each row whose centres lie in the triangle p,
-/// given as to_texels gives it. Triangles that share an edge, to the bit, share no texel and leave
-/// none out. What lies outside the image is left out; so is a triangle that is not finite.
-template <typename Visit>
-void for_each_span(const std::array<glm::dvec2, 3>& p, int width_px, int height_px, Visit&& visit) {
-  for (const glm::dvec2& corner : p)
-    if (!std::isfinite(corner.x) || !std::isfinite(corner.y)) return;
-  const double width = width_px, height = height_px;
-  const double top = std::min({p[0].y, p[1].y, p[2].y});
-  const double bottom = std::max({p[0].y, p[1].y, p[2].y});
-  const int first = static_cast<int>(std::clamp(std::ceil(top), 0.0, height));
-  const int last = static_cast<int>(std::clamp(std::ceil(bottom), 0.0, height));
-  for (int y = first; y < last; ++y) {
-    double lo = 1e300, hi = -1e300;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const glm::dvec2 &a = p[k], &b = p[(k + 1) % 3];
-      if ((a.y <= y) == (b.y <= y)) continue;
-      const double x = cross_row(a, b, y);
-      lo = std::min(lo, x), hi = std::max(hi, x);
-    }
-    const int x0 = static_cast<int>(std::clamp(std::ceil(lo), 0.0, width));
-    const int x1 = static_cast<int>(std::clamp(std::ceil(hi), 0.0, width));
+/// Calls visit(x0, x1, y) for the texels [x0, x1) of each row whose centres lie in the triangle,
+/// whichever way it turns. Triangles that share an edge, to the bit, share no texel and leave none
+/// out. What lies outside the image is left out; so is a triangle that is not finite.
+template <typename Real, typename Visit>
+void for_each_span(const TexelTriangleOf<Real>& triangle, int width_px, int height_px,
+                   Visit&& visit) {
+  using Vec2 = glm::vec<2, Real>;
+  Vec2 a = triangle[0], b = triangle[1], c = triangle[2];
+  if (!std::isfinite(a.x + a.y + b.x + b.y + c.x + c.y)) return;
+  const auto is_above = [](const Vec2& p, const Vec2& q) {
+    return p.y < q.y || (p.y == q.y && p.x < q.x);
+  };
+  if (is_above(b, a)) std::swap(a, b);
+  if (is_above(c, b)) std::swap(b, c);
+  if (is_above(b, a)) std::swap(a, b);
+  const auto whole = [](Real at, int most) {
+    return static_cast<int>(std::min(std::max(std::ceil(at), Real(0)), Real(most)));
+  };
+  const int top = whole(a.y, height_px), bottom = whole(c.y, height_px);
+  const int middle = std::max(whole(b.y, height_px), top);
+  // Edges are walked from their upper ends, so both triangles at one compute the same.
+  const Real along_ac = (c.x - a.x) / (c.y - a.y);
+  Vec2 from = a;
+  Real along = (b.x - a.x) / (b.y - a.y);  // not used where it has no row
+  for (int y = top; y < bottom; ++y) {
+    if (y == middle) from = b, along = (c.x - b.x) / (c.y - b.y);
+    const Real p = a.x + (Real(y) - a.y) * along_ac, q = from.x + (Real(y) - from.y) * along;
+    const int x0 = whole(std::min(p, q), width_px), x1 = whole(std::max(p, q), width_px);
     if (x0 < x1) visit(x0, x1, y);
   }
 }

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "bake/adapt_packs.h"
-#include "bake/texel_raster.h"
+#include "bake/texel_affine.h"
 #include "base/large_vector.h"
 #include "base/parallel.h"
 #include "image/half.h"
@@ -163,8 +163,12 @@ void sample_line(const View<Texel>& image, const Line& line, int n, Texel* out) 
 // Who has a texel: 0 nobody, else a chart's name, with kInside where the chart lies.
 constexpr std::uint16_t kInside = 0x8000;
 std::uint16_t name_of(std::uint32_t chart) {
-  return static_cast<std::uint16_t>(chart % (kInside - 1) + 1);
+  return static_cast<std::uint16_t>(chart % (kInside - 2) + 1);
 }
+
+// Of texels, a side: parts of the map that belong to one chart, mostly.
+constexpr int kTile = 8;
+constexpr std::uint16_t kSeveral = 0x7fff;
 
 // The same from the texels of one chart alone; of none where all are others'.
 template <typename Texel>
@@ -201,13 +205,14 @@ float area2(const TexelTriangle& p) {
 template <typename Texel>
 class TextureAdapter<Texel>::Engine {
  public:
-  Engine(const AdaptationLog& log, Image<Texel> image, std::size_t n_collapsed,
+  Engine(const AdaptationLog& log, const Image<Texel>& image, std::size_t n_collapsed,
          const AdaptOptions& options)
       : log_(log),
         width_px_(image.width_px),
         height_px_(image.height_px),
         pixels_(image.pixels.begin(), image.pixels.end()),
         owners_(pixels_.size()),
+        tiles_((width_px_ + kTile - 1) / kTile, (height_px_ + kTile - 1) / kTile),
         n_collapsed_(n_collapsed),
         options_(options) {
     if (options_.n_threads <= 0) options_.n_threads = hardware_threads();
@@ -216,8 +221,7 @@ class TextureAdapter<Texel>::Engine {
     threads_.resize(static_cast<std::size_t>(options_.n_threads));
   }
 
-  void claim(std::span<const std::array<glm::vec2, 3>> faces,
-             std::span<const std::uint32_t> charts);
+  void claim(const LevelCharts& charts);
   void go_to(std::size_t n_collapsed);
 
   const AdaptationLog& log_;
@@ -225,6 +229,7 @@ class TextureAdapter<Texel>::Engine {
   LargeVector<Texel> pixels_;
   std::vector<float> own_u_, own_v_;  // what texels held at first, by column and row
   LargeVector<std::uint16_t> owners_;
+  Image<std::uint16_t> tiles_;  // who has texels there; kSeveral
   std::size_t n_collapsed_;
   AdaptOptions options_;
   AdaptCounts counts_;
@@ -268,16 +273,25 @@ class TextureAdapter<Texel>::Engine {
   }
   std::size_t offset(int x, int y) const { return view().offset(x, y); }
   View<Texel> view() const { return {pixels_.data(), width_px_, height_px_}; }
+  glm::vec2 place_of(const glm::vec2& uv) const { return to_texels(uv, width_px_, height_px_); }
   TexelTriangle corners(const std::array<glm::vec2, 3>& uv) const {
     TexelTriangle out;
-    for (std::size_t k = 0; k < 3; ++k) out[k] = to_texels(uv[k], width_px_, height_px_);
+    for (std::size_t k = 0; k < 3; ++k) out[k] = place_of(uv[k]);
     return out;
   }
   void fetch(std::size_t collapse) const;
+  bool meets_others(const Adaptation& adaptation, const Scratch& scratch) const;
   void adapt(std::size_t collapse, bool is_collapse, Scratch& scratch);
   void gather_cell(const Cell& cell, Scratch& scratch) const;
   void gather_gutter(const Cell& cell, std::size_t k, Scratch& scratch) const;
   void release(const Adaptation& adaptation, const Scratch& scratch);
+  void mark_tile(std::size_t texel) {
+    const auto x = static_cast<int>(texel % static_cast<std::size_t>(width_px_));
+    const auto y = static_cast<int>(texel / static_cast<std::size_t>(width_px_));
+    const std::uint16_t name = owners_[texel] & ~kInside;
+    std::uint16_t& tile = tiles_.at(x / kTile, y / kTile);
+    if (name != 0 && tile != name) tile = tile == 0 ? name : kSeveral;
+  }
   void write_inside(Scratch& scratch);
   void write_border(Scratch& scratch);
 
@@ -286,13 +300,12 @@ class TextureAdapter<Texel>::Engine {
 
 // Texels inside first, then gutters around them.
 template <typename Texel>
-void TextureAdapter<Texel>::Engine::claim(std::span<const std::array<glm::vec2, 3>> faces,
-                                          std::span<const std::uint32_t> charts) {
-  for (std::size_t f = 0; f < faces.size(); ++f)
-    for_each_span_within(corners(faces[f]), width_px_, height_px_, [&](int x0, int x1, int y) {
+void TextureAdapter<Texel>::Engine::claim(const LevelCharts& charts) {
+  for (std::size_t f = 0; f < charts.faces.size(); ++f)
+    for_each_span(corners(charts.faces[f]), width_px_, height_px_, [&](int x0, int x1, int y) {
       std::uint16_t* owner = &owners_[offset(x0, y)];
       for (int k = 0; k < x1 - x0; ++k)
-        if (owner[k] == 0) owner[k] = kInside | name_of(charts[f]);
+        if (owner[k] == 0) owner[k] = kInside | name_of(charts.charts[f]);
     });
   const int reach = static_cast<int>(kGutter);
   for (int step = 0; step < reach; ++step) {
@@ -306,6 +319,7 @@ void TextureAdapter<Texel>::Engine::claim(std::span<const std::array<glm::vec2, 
             owner = std::max<std::uint16_t>(owner, last[offset(i, j)] & ~kInside);
       }
   }
+  for (std::size_t i = 0; i < owners_.size(); ++i) mark_tile(i);
 }
 
 template <typename Texel>
@@ -333,7 +347,7 @@ template <typename Texel>
 void TextureAdapter<Texel>::Engine::fetch(std::size_t collapse) const {
   glm::vec2 lo(1e30f), hi(-1e30f);
   for (const AdaptationPoint& point : log_.of(collapse).points) {
-    const glm::vec2 p = to_texels(point.before, width_px_, height_px_);
+    const glm::vec2 p = place_of(point.before);
     lo = glm::min(lo, p), hi = glm::max(hi, p);
   }
   const int x0 = std::clamp(static_cast<int>(lo.x), 0, width_px_ - 1);
@@ -345,20 +359,37 @@ void TextureAdapter<Texel>::Engine::fetch(std::size_t collapse) const {
     for (int x = x0; x <= x1; x += kLine) __builtin_prefetch(&pixels_[offset(x, y)]);
 }
 
+// Whether another chart's texels are so near that a sample may take one.
+template <typename Texel>
+bool TextureAdapter<Texel>::Engine::meets_others(const Adaptation& adaptation,
+                                                 const Scratch& scratch) const {
+  glm::vec2 lo(1e30f), hi(-1e30f);
+  for (const glm::vec2& p : scratch.from) lo = glm::min(lo, p), hi = glm::max(hi, p);
+  const auto tile = [](float at, int n) {
+    return std::clamp(static_cast<int>(std::clamp(at, 0.0f, 1e6f)) / kTile, 0, n - 1);
+  };
+  const int x1 = tile(hi.x + 2, tiles_.width_px), y1 = tile(hi.y + 2, tiles_.height_px);
+  for (int y = tile(lo.y - 2, tiles_.height_px); y <= y1; ++y)
+    for (int x = tile(lo.x - 2, tiles_.width_px); x <= x1; ++x)
+      for (const AdaptationTriangle& t : adaptation.triangles)
+        if (tiles_.at(x, y) != 0 && tiles_.at(x, y) != name_of(t.chart)) return true;
+  return false;
+}
+
 template <typename Texel>
 void TextureAdapter<Texel>::Engine::adapt(std::size_t collapse, bool is_collapse,
                                           Scratch& scratch) {
   const Adaptation adaptation = log_.of(collapse);
   scratch.from.clear(), scratch.to.clear(), scratch.n_spans = scratch.n_values = 0;
   for (const AdaptationPoint& point : adaptation.points) {
-    const glm::vec2 before = to_texels(point.before, width_px_, height_px_);
-    const glm::vec2 after = to_texels(point.after, width_px_, height_px_);
+    const glm::vec2 before = place_of(point.before);
+    const glm::vec2 after = place_of(point.after);
     scratch.from.push_back(is_collapse ? before : after);
     scratch.to.push_back(is_collapse ? after : before);
   }
   bool has_border = false;
   Cell cell;
-  cell.is_guarded = log_.n_charts > 1;
+  cell.is_guarded = log_.n_charts > 1 && meets_others(adaptation, scratch);
   const auto visit_cells = [&](auto&& visit) {
     for (const AdaptationTriangle& t : adaptation.triangles) {
       for (std::size_t k = 0; k < 3; ++k)
@@ -388,7 +419,7 @@ void TextureAdapter<Texel>::Engine::gather_cell(const Cell& cell, Scratch& scrat
   Texel* values = scratch.make_room(cell.to);
   Span* span = scratch.spans.data() + scratch.n_spans;
   const auto owner = static_cast<std::uint16_t>(kInside | cell.name);
-  for_each_span_within(
+  for_each_span(
       cell.to, w, h, [&](int x0, int x1, int y) __attribute__((always_inline)) {
         const int n = x1 - x0;
         *span++ = {static_cast<std::uint32_t>(offset(x0, y)), static_cast<std::uint16_t>(n), owner};
@@ -433,7 +464,7 @@ void TextureAdapter<Texel>::Engine::gather_gutter(const Cell& cell, std::size_t 
   for (const TexelTriangle& half :
        {TexelTriangle{strip[0], strip[1], strip[2]}, {strip[0], strip[2], strip[3]}}) {
     scratch.make_room(half);
-    for_each_span_within(half, w, h, [&](int x0, int x1, int y) {
+    for_each_span(half, w, h, [&](int x0, int x1, int y) {
       scratch.add_span({static_cast<std::uint32_t>(offset(x0, y)),
                         static_cast<std::uint16_t>(x1 - x0), cell.name});
       Texel* values = scratch.values.data() + scratch.n_values;
@@ -450,13 +481,13 @@ void TextureAdapter<Texel>::Engine::gather_gutter(const Cell& cell, std::size_t 
 template <typename Texel>
 void TextureAdapter<Texel>::Engine::release(const Adaptation& adaptation, const Scratch& scratch) {
   for (const AdaptationTriangle& t : adaptation.triangles)
-    for_each_span_within(
-        {scratch.from[t.corners[0]], scratch.from[t.corners[1]], scratch.from[t.corners[2]]},
-        width_px_, height_px_, [&](int x0, int x1, int y) {
-          std::uint16_t* owner = &owners_[offset(x0, y)];
-          for (int k = 0; k < x1 - x0; ++k)
-            if (owner[k] == (kInside | name_of(t.chart))) owner[k] = 0;
-        });
+    for_each_span(TexelTriangle{scratch.from[t.corners[0]], scratch.from[t.corners[1]],
+                                scratch.from[t.corners[2]]},
+                  width_px_, height_px_, [&](int x0, int x1, int y) {
+                    std::uint16_t* owner = &owners_[offset(x0, y)];
+                    for (int k = 0; k < x1 - x0; ++k)
+                      if (owner[k] == (kInside | name_of(t.chart))) owner[k] = 0;
+                  });
 }
 
 // Inside a chart the star stays the same.
@@ -485,18 +516,18 @@ void TextureAdapter<Texel>::Engine::write_border(Scratch& scratch) {
       }
       texel[k] = *value;
       owner[k] = span.owner;
+      mark_tile(span.offset + static_cast<std::size_t>(k));
     }
     if (is_inside) scratch.n_texels += std::size_t(span.n);
   }
 }
 
 template <typename Texel>
-TextureAdapter<Texel>::TextureAdapter(const AdaptationLog& log, Image<Texel> image,
-                                      std::span<const std::array<glm::vec2, 3>> faces,
-                                      std::span<const std::uint32_t> charts,
-                                      std::size_t n_collapsed, const AdaptOptions& options)
-    : engine_(std::make_unique<Engine>(log, std::move(image), n_collapsed, options)) {
-  engine_->claim(faces, charts);
+TextureAdapter<Texel>::TextureAdapter(const AdaptationLog& log, const Image<Texel>& image,
+                                      const LevelCharts& charts, std::size_t n_collapsed,
+                                      const AdaptOptions& options)
+    : engine_(std::make_unique<Engine>(log, image, n_collapsed, options)) {
+  engine_->claim(charts);
 }
 
 template <typename Texel>

@@ -55,12 +55,9 @@ struct AdaptCounts {
 template <typename Texel>
 class TextureAdapter {
  public:
-  /// image: as it is after n_collapsed collapses of the log. faces: the texture coordinates of the
-  /// mesh at that level, and their charts (log.charts). Keeps the log by reference.
-  TextureAdapter(const AdaptationLog& log, Image<Texel> image,
-                 std::span<const std::array<glm::vec2, 3>> faces,
-                 std::span<const std::uint32_t> charts, std::size_t n_collapsed = 0,
-                 const AdaptOptions& options = {});
+  /// image, charts: as they are after n_collapsed collapses of the log, which is kept by reference.
+  TextureAdapter(const AdaptationLog& log, const Image<Texel>& image, const LevelCharts& charts,
+                 std::size_t n_collapsed = 0, const AdaptOptions& options = {});
   ~TextureAdapter();
   TextureAdapter(TextureAdapter&&) noexcept;
 

@@ -60,10 +60,14 @@ Finest make_finest(const ProgressiveRecord& record) {
   return out;
 }
 
-double area2(const AdaptationPoint& a, const AdaptationPoint& b, const AdaptationPoint& c,
-             glm::vec2 AdaptationPoint::*place) {
-  const glm::dvec2 p(a.*place), q = glm::dvec2(b.*place) - p, r = glm::dvec2(c.*place) - p;
-  return q.x * r.y - q.y * r.x;
+// -1, 0 or 1: the way that a triangle turns; 0 where rounding to float could have turned it.
+int turn_of(const glm::vec2& a, const glm::vec2& b, const glm::vec2& c) {
+  constexpr double kRounding = 0x1p-23;
+  const glm::dvec2 p(a), q = glm::dvec2(b) - p, r = glm::dvec2(c) - p;
+  const double area2 = q.x * r.y - q.y * r.x;
+  const double largest = std::max({1.0, std::abs(p.x), std::abs(p.y)});
+  const double most = kRounding * largest * (glm::length(q) + glm::length(r));
+  return std::abs(area2) <= most ? 0 : area2 > 0 ? 1 : -1;
 }
 
 // Lays one collapse after another.
@@ -112,11 +116,11 @@ class LogBuilder {
   }
   bool add_points();
   bool add_cells();
-  bool add_triangle(const AdaptationTriangle& triangle, double sign);
+  bool add_triangle(const AdaptationTriangle& triangle, int turn);
   void mark_borders();
   bool is_border(const Edge& edge) const;
   bool has_neighbour(std::uint32_t face, std::uint32_t u) const;
-  double texture_area2(std::uint32_t face) const;
+  int turn_of_face(std::uint32_t face) const;
   bool is_original(std::uint32_t face) const;
 
   Finest finest_;
@@ -129,12 +133,11 @@ class LogBuilder {
   std::vector<std::uint32_t> faces_;  // old ones, of the collapse's triangles
 };
 
-double LogBuilder::texture_area2(std::uint32_t face) const {
-  std::array<glm::dvec2, 3> p;
-  for (std::uint32_t k = 0; k < 3; ++k)
-    p[k] = glm::dvec2(finest_.wedges.texcoords[table_.at(3 * face + k)]);
-  const glm::dvec2 a = p[1] - p[0], b = p[2] - p[0];
-  return a.x * b.y - a.y * b.x;
+int LogBuilder::turn_of_face(std::uint32_t face) const {
+  const auto corner = [&](std::uint32_t k) {
+    return finest_.wedges.texcoords[table_.at(3 * face + k)];
+  };
+  return turn_of(corner(0), corner(1), corner(2));
 }
 
 bool LogBuilder::is_original(std::uint32_t face) const {
@@ -159,7 +162,7 @@ bool LogBuilder::add_cells() {
   for (std::size_t i = 0; i < overlay.textures().size(); ++i) {
     const std::uint32_t face = map_.faces()[overlay.cells()[i].old_face];
     const CellCorners& c = overlay.textures()[i];
-    const double sign = texture_area2(face);
+    const int turn = turn_of_face(face);
     for (std::size_t k = 2; k < 4; ++k) {
       AdaptationTriangle triangle{{}, 0, finest_.charts[face]};
       triangle.flags = is_original(face) ? 8 : 0;
@@ -168,7 +171,7 @@ bool LogBuilder::add_cells() {
         continue;
       for (std::size_t j = 0; j < 3; ++j)
         triangle.corners[j] = static_cast<std::uint16_t>(corners[j]);
-      if (!add_triangle(triangle, sign)) return false;
+      if (!add_triangle(triangle, turn)) return false;
       faces_.push_back(face);
     }
   }
@@ -176,11 +179,11 @@ bool LogBuilder::add_cells() {
 }
 
 // False when it turns over.
-bool LogBuilder::add_triangle(const AdaptationTriangle& triangle, double sign) {
+bool LogBuilder::add_triangle(const AdaptationTriangle& triangle, int turn) {
   const AdaptationPoint* p = &log_.points[log_.first_point.back()];
   const auto& [a, b, c] = triangle.corners;
-  if (area2(p[a], p[b], p[c], &AdaptationPoint::before) * sign < 0) return false;
-  if (area2(p[a], p[b], p[c], &AdaptationPoint::after) * sign < 0) return false;
+  if (turn_of(p[a].before, p[b].before, p[c].before) * turn < 0) return false;
+  if (turn_of(p[a].after, p[b].after, p[c].after) * turn < 0) return false;
   log_.triangles.push_back(triangle);
   return true;
 }
@@ -229,6 +232,18 @@ void LogBuilder::mark_borders() {
 }
 
 }  // namespace
+
+LevelCharts make_level_charts(const ProgressiveMesh& mesh, const AdaptationLog& log) {
+  LevelCharts out;
+  const ProgressiveRecord& record = mesh.record();
+  for (std::size_t f = 0; f < record.faces.size(); ++f) {
+    if (!mesh.has_face(f)) continue;
+    const Triangle& t = record.faces[f];
+    out.faces.push_back({record.texcoords[t[0]], record.texcoords[t[1]], record.texcoords[t[2]]});
+    out.charts.push_back(log.charts[f]);
+  }
+  return out;
+}
 
 AdaptationLog make_adaptation_log(const ProgressiveRecord& record, const Progress& progress) {
   VIEWCELL_CHECK(!record.is_full_edge() && !record.texcoords.empty());

@@ -63,6 +63,13 @@ struct AdaptationLog {
   }
 };
 
+/// The faces of a level in the texture.
+struct LevelCharts {
+  std::vector<std::array<glm::vec2, 3>> faces;
+  std::vector<std::uint32_t> charts;  ///< of the faces
+};
+LevelCharts make_level_charts(const ProgressiveMesh& mesh, const AdaptationLog& log);
+
 /// Lays the cells of every collapse again, points matched by nearness as in the mapping metric. The
 /// record must be of half-edge collapses, have texture coordinates and be sound (see check_record).
 /// About 3 us a collapse. Follows: [Chen06 3.2.2].

@@ -15,7 +15,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // In the texture u keeps this far from the edges of its new face, as a weight of a corner: cells
 // at an edge would vanish.
-constexpr double kInside = 1.0 / 64;
+constexpr double kInside = 1.0 / 16384;
 
 double cross2(const glm::dvec2& a, const glm::dvec2& b) {
   return a.x * b.y - a.y * b.x;

@@ -15,9 +15,9 @@ double cross2(const glm::dvec2& a, const glm::dvec2& b) {
   return a.x * b.y - a.y * b.x;
 }
 
-// The least distance of corners along an edge, and of its ends, as a share of it. Less makes cells
-// thinner than any texel, and what goes into them does not come back.
-constexpr double kGap = 1.0 / 64;
+// The least distance of corners along an edge, and of its ends, as a share of it: cells keep some
+// area, and no texel moves that need not.
+constexpr double kGap = 1.0 / 16384;
 
 // Makes shares of an edge rise by a gap each, from 0 to 1, with the least squared change. Returns
 // whether some had to change. [Barlow et al. 1972, pool adjacent violators]

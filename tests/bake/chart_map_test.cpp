@@ -79,11 +79,11 @@ TEST(TexelSpans, NeitherGapsNorOverlaps) {
 TEST(TexelSpans, HugeAndBrokenTriangles) {
   std::size_t n = 0;
   const auto visit = [&](int x0, int x1, int) { n += static_cast<std::size_t>(x1 - x0); };
-  for_each_span({{{-1e30, -1e30}, {1e30, -1e30}, {0, 1e30}}}, 8, 4, visit);
+  for_each_span(TexelTriangleOf<double>{{{-1e30, -1e30}, {1e30, -1e30}, {0, 1e30}}}, 8, 4, visit);
   EXPECT_EQ(n, 32u);
-  for_each_span({{{kNan, 0}, {8, 0}, {0, 8}}}, 8, 4, visit);
-  for_each_span({{{0, HUGE_VAL}, {8, 0}, {0, 8}}}, 8, 4, visit);
-  for_each_span({{{1e30, 1}, {2e30, 1}, {1e30, 9e30}}}, 8, 4, visit);
+  for_each_span(TexelTriangleOf<double>{{{kNan, 0}, {8, 0}, {0, 8}}}, 8, 4, visit);
+  for_each_span(TexelTriangleOf<double>{{{0, HUGE_VAL}, {8, 0}, {0, 8}}}, 8, 4, visit);
+  for_each_span(TexelTriangleOf<double>{{{1e30, 1}, {2e30, 1}, {1e30, 9e30}}}, 8, 4, visit);
   EXPECT_EQ(n, 32u);
 }
 

@@ -25,6 +25,24 @@ TriMesh make_bump(float height) {
   return grid;
 }
 
+// A progressive mesh, its log, and a map that follows it from the finest level on.
+struct Adapted {
+  ProgressiveMesh mesh;
+  AdaptationLog log;
+  TextureAdapter<glm::vec2> adapter;
+
+  Adapted(const BuildResult& built, int size_px, const AdaptOptions& options = {})
+      : mesh(at_finest(built)),
+        log(make_adaptation_log(built.record)),
+        adapter(log, make_index_map<glm::vec2>(size_px, size_px), make_level_charts(mesh, log), 0,
+                options) {}
+  static ProgressiveMesh at_finest(const BuildResult& built) {
+    ProgressiveMesh out(built.record);
+    out.set_level(out.n_splits());
+    return out;
+  }
+};
+
 BuildResult build(const TriMesh& mesh, std::size_t n_faces) {
   BuildOptions options;
   options.metric = MetricKind::mapping;
@@ -33,49 +51,80 @@ BuildResult build(const TriMesh& mesh, std::size_t n_faces) {
 }
 
 TEST(IndexMap, HoldsItsOwnPlaces) {
-  const IndexMap map = make_index_map(4, 2);
+  const IndexMap map = make_index_map<glm::vec2>(4, 2);
   EXPECT_EQ(map.at(0, 0), glm::vec2(0.125f, 0.75f));
   EXPECT_EQ(map.at(3, 1), glm::vec2(0.875f, 0.25f));
 }
 
 TEST(TextureAdapter, FlatMeshesKeepEveryTexel) {
-  const BuildResult built = build(make_bump(0), 6);
-  const AdaptationLog log = make_adaptation_log(built.record);
-  IndexMap map = make_index_map(128, 128);
-  const IndexMap start = map;
-  TextureAdapter adapter;
-  for (std::size_t i = 0; i < log.n_collapses(); ++i) adapter.collapse(map, log.of(i));
-  EXPECT_GT(adapter.counts().n_texels, 20000u);
+  Adapted flat(build(make_bump(0), 6), 128);
+  const IndexMap start = flat.adapter.image();
+  flat.adapter.go_to(flat.log.n_collapses());
+  EXPECT_GT(flat.adapter.counts().n_texels, 20000u);
+  const IndexMap map = flat.adapter.image();
   for (std::size_t i = 0; i < map.pixels.size(); ++i)
     ASSERT_LT(128 * glm::distance(map.pixels[i], start.pixels[i]), 0.01f) << i;
 }
 
-// There and back: what no cell touched is as it was to the bit, the rest within half a texel.
-TEST(TextureAdapter, SplitsUndoCollapses) {
-  const BuildResult built = build(make_bump(0.4f), 60);
-  const AdaptationLog log = make_adaptation_log(built.record);
-  IndexMap map = make_index_map(256, 256);
-  const IndexMap start = map;
-  TextureAdapter adapter;
-  for (std::size_t i = 0; i < log.n_collapses(); ++i) adapter.collapse(map, log.of(i));
-  const IndexMap coarse = map;
-  for (std::size_t i = log.n_collapses(); i-- > 0;) adapter.split(map, log.of(i));
-  std::size_t n_moved = 0, n_off = 0;
-  double sum = 0;
-  for (int y = 0; y < 256; ++y)
-    for (int x = 0; x < 256; ++x) {
-      const double off = 256 * glm::distance(map.at(x, y), start.at(x, y));
-      const bool is_outside = x < 25 || y < 25 || x >= 231 || y >= 231;
-      if (is_outside) {
-        ASSERT_EQ(map.at(x, y), start.at(x, y));
-      }
-      n_moved += 256 * glm::distance(coarse.at(x, y), start.at(x, y)) > 1;
-      n_off += off > 0.5;
-      sum += off * off;
+// All the way back every texel of the chart is as it was, to the bit, and so is what no gutter
+// touched.
+TEST(TextureAdapter, TheWholeWayBackIsExact) {
+  Adapted bump(build(make_bump(0.4f), 60), 256);
+  const IndexMap start = bump.adapter.image();
+  bump.adapter.go_to(bump.log.n_collapses());
+  const IndexMap coarse = bump.adapter.image();
+  bump.adapter.go_to(0);
+  const IndexMap back = bump.adapter.image();
+  std::size_t n_moved = 0;
+  for (std::size_t i = 0; i < start.pixels.size(); ++i) {
+    n_moved += 256 * glm::distance(coarse.pixels[i], start.pixels[i]) > 1;
+    if (bump.adapter.is_inside(i)) {
+      ASSERT_EQ(back.pixels[i], start.pixels[i]) << i;
     }
+    ASSERT_LT(256 * glm::distance(back.pixels[i], start.pixels[i]), 0.5f) << i;
+  }
   EXPECT_GT(n_moved, 2000u);
-  EXPECT_LT(n_off, 256u * 256u / 100);
-  EXPECT_LT(std::sqrt(sum / (256 * 256)), 0.25);
+  EXPECT_EQ(back.at(5, 5), start.at(5, 5));
+}
+
+// One collapse there and back, on a map that has come some way: untouched texels keep their bits,
+// the others come back to within half a texel.
+TEST(TextureAdapter, OneSplitUndoesOneCollapse) {
+  Adapted bump(build(make_bump(0.4f), 60), 256);
+  const std::size_t n = bump.log.n_collapses();
+  std::size_t n_touched = 0;
+  double worst = 0;
+  for (std::size_t i = n / 2; i < n / 2 + 40; ++i) {
+    bump.adapter.go_to(i);
+    const IndexMap start = bump.adapter.image();
+    bump.adapter.go_to(i + 1);
+    const IndexMap there = bump.adapter.image();
+    bump.adapter.go_to(i);
+    const IndexMap back = bump.adapter.image();
+    for (std::size_t k = 0; k < start.pixels.size(); ++k) {
+      if (there.pixels[k] == start.pixels[k] && back.pixels[k] == start.pixels[k]) continue;
+      ++n_touched;
+      if (bump.adapter.is_inside(k))
+        worst = std::max<double>(worst, 256 * glm::distance(back.pixels[k], start.pixels[k]));
+    }
+    EXPECT_LT(n_touched, (i + 1 - n / 2) * start.pixels.size() / 8);
+  }
+  EXPECT_GT(n_touched, 1000u);
+  EXPECT_LT(worst, 0.5);
+}
+
+// The same bytes for any number of threads, side by side or one by one.
+TEST(TextureAdapter, ThreadsAndPacksChangeNothing) {
+  const BuildResult built = build(make_bump(0.4f), 60);
+  Adapted one(built, 256, {.n_threads = 1, .pack = false}), packed(built, 256, {.n_threads = 3});
+  for (const std::size_t level : {one.log.n_collapses(), one.log.n_collapses() / 3}) {
+    one.adapter.go_to(level), packed.adapter.go_to(level);
+    EXPECT_EQ(one.adapter.image().pixels, packed.adapter.image().pixels);
+  }
+  EXPECT_EQ(one.adapter.counts().n_adaptations, packed.adapter.counts().n_adaptations);
+  EXPECT_EQ(one.adapter.counts().n_texels, packed.adapter.counts().n_texels);
+  EXPECT_EQ(one.adapter.counts().n_packs, one.adapter.counts().n_adaptations);
+  EXPECT_LT(3 * packed.adapter.counts().n_packs, one.adapter.counts().n_packs);
 }
 
 // With the adapted map a point of the coarse mesh shows what is nearest to it on the input better
@@ -84,9 +133,9 @@ TEST(TextureAdapter, TextureStaysWhereItWas) {
   const TriMesh bump = make_bump(0.4f);
   const BuildResult built = build(bump, 60);
   const AdaptationLog log = make_adaptation_log(built.record);
-  IndexMap map = make_index_map(512, 512);
-  TextureAdapter adapter;
-  for (std::size_t i = 0; i < log.n_collapses(); ++i) adapter.collapse(map, log.of(i));
+  Adapted adapted(built, 512);
+  adapted.adapter.go_to(log.n_collapses());
+  const IndexMap map = adapted.adapter.image();
   const ProgressiveMesh pm(built.record);
   const TriMesh coarse = pm.extract();
   const ClosestPointFinder finder(bump, {glm::dvec3(-1), glm::dvec3(2)}, 1);
@@ -118,7 +167,7 @@ TEST(BakeTexture, ShowsTheTextureThroughTheMap) {
     for (int x = 0; x < 64; ++x)
       texture.at(x, y) = {static_cast<std::uint8_t>(4 * x), static_cast<std::uint8_t>(4 * y), 7,
                           255};
-  EXPECT_EQ(bake_texture(make_index_map(64, 64), texture).pixels, texture.pixels);
+  EXPECT_EQ(bake_texture(make_index_map<glm::vec2>(64, 64), texture).pixels, texture.pixels);
   IndexMap map(2, 1, glm::vec2(0.5f, 0.5f));
   const ImageRgba8 out = bake_texture(map, texture);
   EXPECT_EQ(out.at(0, 0), (Rgba8{126, 126, 7, 255}));

@@ -60,12 +60,15 @@ int run(const Tool& tool, const Arguments& a) {
   const double log_s = watch.lap_s();
   ProgressiveMesh mesh(record);
   mesh.set_level(mesh.n_splits());
+  const LevelCharts charts = make_level_charts(mesh, log);
   mesh.set_faces(a.n_faces);
-  IndexMap map = make_index_map(texture.width_px, texture.height_px);
-  TextureAdapter adapter;
-  watch.lap_s();
   const std::size_t n = mesh.n_splits() - mesh.level();
-  for (std::size_t i = 0; i < n; ++i) adapter.collapse(map, log.of(i));
+  watch.lap_s();
+  TextureAdapter<glm::vec2> adapter(log,
+                                    make_index_map<glm::vec2>(texture.width_px, texture.height_px),
+                                    charts, 0, {.n_threads = common.n_threads});
+  adapter.go_to(n);
+  const IndexMap map = adapter.image();
   const double adapt_s = watch.lap_s();
   const ImageRgba8 baked = bake_texture(map, texture);
   if (!a.mesh.empty())
@@ -78,6 +81,7 @@ int run(const Tool& tool, const Arguments& a) {
   tool.report({{"faces", n_faces},
                {"collapses", n},
                {"adaptations", adapter.counts().n_adaptations},
+               {"packs", adapter.counts().n_packs},
                {"texels", adapter.counts().n_texels},
                {"refused", {{"fold", log.n_folded}, {"unmapped", log.n_unmapped}}},
                {"timing", {{"log_s", log_s}, {"adapt_s", adapt_s}}}});
