@@ -20,6 +20,7 @@
   X(DepthFunc, DEPTHFUNC)         \
   X(DepthMask, DEPTHMASK)         \
   X(ColorMask, COLORMASK)         \
+  X(ColorMaski, COLORMASKI)       \
   X(CullFace, CULLFACE)           \
   X(FrontFace, FRONTFACE)         \
   X(PolygonMode, POLYGONMODE)     \

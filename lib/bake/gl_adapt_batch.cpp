@@ -1,0 +1,235 @@
+#include "bake/gl_adapt_batch.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "bake/adapt_packs.h"
+#include "bake/texel_affine.h"
+
+namespace viewcell {
+namespace {
+
+constexpr float kUnlimited = 1e9f;
+
+bool is_finite(const TexelTriangle& p) {
+  return std::isfinite(p[0].x + p[0].y + p[1].x + p[1].y + p[2].x + p[2].y);
+}
+
+float area2(const TexelTriangle& p) {
+  const glm::vec2 a = p[1] - p[0], b = p[2] - p[0];
+  return a.x * b.y - a.y * b.x;
+}
+
+struct Bounds {
+  glm::vec2 lo{1e30f}, hi{-1e30f};
+  void add(const std::vector<glm::vec2>& points) {
+    for (const glm::vec2& p : points) lo = glm::min(lo, p), hi = glm::max(hi, p);
+  }
+};
+
+// Places in the triangle's own frame: no limits.
+OwnedVertex unlimited(OwnedVertex vertex) {
+  vertex.origin = glm::vec2(0), vertex.along = glm::vec2(1, 0), vertex.side = -1;
+  vertex.lo = glm::vec2(-kUnlimited), vertex.hi = glm::vec2(kUnlimited);
+  return vertex;
+}
+
+}  // namespace
+
+std::size_t AdaptBatch::n_bytes() const {
+  return vertices.size() * sizeof(AdaptVertex) + indices.size() * sizeof(std::uint32_t) +
+         owned.size() * sizeof(OwnedVertex) + star_corners.size() * sizeof(glm::vec2);
+}
+
+AdaptBatchBuilder::AdaptBatchBuilder(const AdaptationLog& log, const Image<std::uint16_t>& owners,
+                                     bool has_original)
+    : log_(log),
+      width_px_(owners.width_px),
+      height_px_(owners.height_px),
+      has_original_(has_original),
+      tiles_(owners) {}
+
+AdaptBatch AdaptBatchBuilder::take() {
+  return std::exchange(batch_, {});
+}
+
+void AdaptBatchBuilder::add_pack(std::span<const std::uint32_t> collapses, bool is_collapse) {
+  scratch_.sampled.clear(), scratch_.own_place.clear(), scratch_.released.clear();
+  PackDraws draws;
+  draws.sample_owned.first = batch_.owned.size();
+  add_boxes(std::exchange(owned_boxes_, {}), scratch_.released);
+  add_boxes(std::exchange(value_boxes_, {}), scratch_.own_place);
+  for (const std::uint32_t collapse : collapses) {
+    const Adaptation adaptation = log_.of(collapse);
+    read_points(adaptation, is_collapse);
+    Bounds from;
+    from.add(scratch_.from);
+    bool has_border = false, is_guarded = false;
+    for (const AdaptationTriangle& t : adaptation.triangles) {
+      has_border = has_border || t.has_border();
+      is_guarded =
+          is_guarded || (log_.n_charts > 1 &&
+                         tiles_.has_others(from.lo - 2.0f, from.hi + 2.0f, owner_name(t.chart)));
+    }
+    if (has_border || is_guarded)
+      add_owned(adaptation, is_collapse, has_border);
+    else
+      add_plain(adaptation, is_collapse);
+  }
+  draws.copy_owned = append(scratch_.released);
+  draws.copy_values = append(scratch_.own_place);
+  draws.sample = append(scratch_.sampled);
+  draws.sample_owned.n = batch_.owned.size() - draws.sample_owned.first;
+  batch_.packs.push_back(draws);
+}
+
+void AdaptBatchBuilder::read_points(const Adaptation& adaptation, bool is_collapse) {
+  scratch_.from.clear(), scratch_.to.clear();
+  const auto place = [&](const glm::vec2& uv) {
+    glm::dvec2 p = to_texels(uv, width_px_, height_px_);
+    p.y = height_px_ - 1 - p.y;
+    return glm::vec2(p);
+  };
+  for (const AdaptationPoint& point : adaptation.points) {
+    scratch_.from.push_back(place(is_collapse ? point.before : point.after));
+    scratch_.to.push_back(place(is_collapse ? point.after : point.before));
+  }
+}
+
+TexelTriangle AdaptBatchBuilder::corners(const std::vector<glm::vec2>& places,
+                                         const AdaptationTriangle& t) const {
+  return {places[t.corners[0]], places[t.corners[1]], places[t.corners[2]]};
+}
+
+bool AdaptBatchBuilder::is_own_place(const AdaptationTriangle& t, bool is_collapse) const {
+  return has_original_ && !is_collapse && t.is_original();
+}
+
+void AdaptBatchBuilder::add_plain(const Adaptation& adaptation, bool is_collapse) {
+  add_triangles(adaptation, is_collapse, false);
+  if (has_original_ && !is_collapse) add_triangles(adaptation, is_collapse, true);
+  Bounds to;
+  to.add(scratch_.to);
+  value_boxes_.push_back({glm::floor(to.lo), glm::floor(to.hi) + 1.0f});
+}
+
+// Those that are sampled, or those that get their own place.
+void AdaptBatchBuilder::add_triangles(const Adaptation& adaptation, bool is_collapse,
+                                      bool own_place) {
+  std::vector<std::uint32_t>& indices = own_place ? scratch_.own_place : scratch_.sampled;
+  const auto base = static_cast<std::uint32_t>(batch_.vertices.size());
+  const std::size_t n = indices.size();
+  for (const AdaptationTriangle& t : adaptation.triangles) {
+    if (is_own_place(t, is_collapse) != own_place) continue;
+    if (!is_finite(corners(scratch_.to, t)) || !is_finite(corners(scratch_.from, t))) continue;
+    for (const std::uint16_t corner : t.corners) indices.push_back(base + corner);
+  }
+  if (indices.size() == n) return;
+  for (std::size_t k = 0; k < scratch_.to.size(); ++k)
+    batch_.vertices.push_back({scratch_.to[k], own_place ? glm::vec2(1, 0) : scratch_.from[k]});
+}
+
+void AdaptBatchBuilder::add_owned(const Adaptation& adaptation, bool is_collapse, bool has_border) {
+  OwnedVertex vertex = unlimited({});
+  vertex.first_corner = static_cast<std::uint32_t>(batch_.star_corners.size());
+  if (has_border) add_release(adaptation);
+  const auto n_corners =
+      static_cast<std::uint32_t>(batch_.star_corners.size()) - vertex.first_corner;
+  const auto visit_cells = [&](auto&& visit) {
+    for (const AdaptationTriangle& t : adaptation.triangles) {
+      const TexelTriangle from = corners(scratch_.from, t), to = corners(scratch_.to, t);
+      if (!is_finite(from) || !is_finite(to)) continue;
+      vertex.name = owner_name(t.chart);
+      vertex.n_corners = n_corners | (is_own_place(t, is_collapse) ? kOwnPlaceBit : 0);
+      visit(t, from, to);
+    }
+  };
+  // Cells lie over gutters, so they are drawn later.
+  visit_cells([&](const AdaptationTriangle& t, const TexelTriangle& from, const TexelTriangle& to) {
+    vertex.owner = vertex.name;
+    for (std::size_t k = 0; k < 3; ++k)
+      if (t.is_border(k)) add_gutter(from, to, k, vertex);
+  });
+  visit_cells([&](const AdaptationTriangle&, const TexelTriangle& from, const TexelTriangle& to) {
+    vertex.owner = has_border ? kInsideChart | vertex.name : 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      vertex.to = to[k], vertex.local = from[k];
+      batch_.owned.push_back(vertex);
+    }
+  });
+  Bounds written;
+  written.add(scratch_.to);
+  if (has_border) {
+    written.add(scratch_.from);
+    written.lo -= 2 * kGutter, written.hi += 2 * kGutter;
+    for (const AdaptationTriangle& t : adaptation.triangles)
+      tiles_.mark(written.lo, written.hi, owner_name(t.chart));
+  }
+  owned_boxes_.push_back({glm::floor(written.lo), glm::floor(written.hi) + 1.0f});
+}
+
+// What the star held is no chart's until it is written again.
+void AdaptBatchBuilder::add_release(const Adaptation& adaptation) {
+  for (const AdaptationTriangle& t : adaptation.triangles) {
+    const TexelTriangle from = corners(scratch_.from, t);
+    if (!is_finite(from)) continue;
+    for (const glm::vec2& p : from) {
+      scratch_.released.push_back(static_cast<std::uint32_t>(batch_.vertices.size()));
+      batch_.vertices.push_back({p, glm::vec2(owner_name(t.chart), 0)});
+      batch_.star_corners.push_back(p);
+    }
+  }
+}
+
+// A strip beyond the edge from a corner to the next, continued from the cell, but sampled no
+// farther from the edge than there are texels of the chart.
+void AdaptBatchBuilder::add_gutter(const TexelTriangle& from, const TexelTriangle& to,
+                                   std::size_t edge, OwnedVertex vertex) {
+  const auto outward = [](const glm::vec2& along, float side) {
+    return side * glm::vec2(along.y, -along.x);
+  };
+  const glm::vec2 p = to[edge], to_edge = to[(edge + 1) % 3] - p;
+  const glm::vec2 q = from[edge], from_edge = from[(edge + 1) % 3] - q;
+  const float length = glm::length(to_edge), from_length = glm::length(from_edge);
+  if (!(length > 0)) return;
+  const glm::vec2 along = kGutter / length * to_edge;
+  const glm::vec2 out = outward(along, area2(to) < 0 ? -1.0f : 1.0f);
+  const std::array<glm::vec2, 4> strip{p - along, p + to_edge + along, p + to_edge + along + out,
+                                       p - along + out};
+  if (from_length > 0) {
+    vertex.origin = q, vertex.along = from_edge / from_length;
+    vertex.side = area2(from) < 0 ? -1.0f : 1.0f;
+    vertex.lo = {-kGutterReach, -kUnlimited};
+    vertex.hi = {from_length + kGutterReach, kGutterReach};
+  }
+  const glm::vec2 from_out = outward(vertex.along, vertex.side);
+  const TexelAffine source = make_affine(to, from);
+  for (const std::size_t k : {0, 1, 2, 0, 2, 3}) {
+    const glm::vec2 at = source(strip[k]) - vertex.origin;
+    vertex.to = strip[k];
+    vertex.local = {glm::dot(at, vertex.along), glm::dot(at, from_out)};
+    batch_.owned.push_back(vertex);
+  }
+}
+
+// Rectangles of texels that stay as they are in the texture that is read.
+void AdaptBatchBuilder::add_boxes(const std::vector<Box>& boxes,
+                                  std::vector<std::uint32_t>& indices) {
+  for (const Box& box : boxes) {
+    const auto base = static_cast<std::uint32_t>(batch_.vertices.size());
+    const glm::vec2 lo = glm::max(box.lo, glm::vec2(0)) - 0.5f;
+    const glm::vec2 hi = glm::min(box.hi, glm::vec2(width_px_, height_px_)) + 0.5f;
+    for (const glm::vec2& p : {lo, glm::vec2(hi.x, lo.y), hi, glm::vec2(lo.x, hi.y)})
+      batch_.vertices.push_back({p, glm::vec2(0)});
+    for (const std::uint32_t k : {0, 1, 2, 0, 2, 3}) indices.push_back(base + k);
+  }
+}
+
+DrawRange AdaptBatchBuilder::append(const std::vector<std::uint32_t>& indices) {
+  const std::size_t first = batch_.indices.size();
+  batch_.indices.insert(batch_.indices.end(), indices.begin(), indices.end());
+  return {first, indices.size()};
+}
+
+}  // namespace viewcell
