@@ -11,6 +11,7 @@ namespace viewcell {
 namespace {
 
 constexpr float kUnlimited = 1e9f;
+constexpr float kSnap = 1 / 16.0f;  // texels: more than GL rounds places by
 
 bool is_finite(const TexelTriangle& p) {
   return std::isfinite(p[0].x + p[0].y + p[1].x + p[1].y + p[2].x + p[2].y);
@@ -27,6 +28,46 @@ struct Bounds {
     for (const glm::vec2& p : points) lo = glm::min(lo, p), hi = glm::max(hi, p);
   }
 };
+
+// Andrew's monotone chain, counter-clockwise. The points are sorted.
+std::vector<glm::vec2> convex_hull(std::vector<glm::vec2>& points) {
+  std::sort(points.begin(), points.end(), [](const glm::vec2& p, const glm::vec2& q) {
+    return p.x < q.x || (p.x == q.x && p.y < q.y);
+  });
+  std::vector<glm::vec2> hull;
+  if (points.empty()) return hull;
+  const auto add = [&](const glm::vec2& p, std::size_t keep) {
+    const auto turns_left = [&] {
+      const glm::vec2 a = hull.back() - hull.end()[-2], b = p - hull.back();
+      return a.x * b.y - a.y * b.x > 0;
+    };
+    while (hull.size() > keep && !turns_left()) hull.pop_back();
+    hull.push_back(p);
+  };
+  for (const glm::vec2& p : points) add(p, 1);
+  const std::size_t n_lower = hull.size();
+  for (std::size_t k = points.size() - 1; k-- > 0;) add(points[k], n_lower);
+  hull.pop_back();
+  if (hull.size() < 3) hull.clear();  // no texel
+  return hull;
+}
+
+// Moves each edge outwards, as far as the corners are not too sharp for that.
+void append_widened(const std::vector<glm::vec2>& hull, float margin, std::vector<glm::vec2>& out) {
+  constexpr float kSharpest = 1e-4f;
+  const auto normal = [&](std::size_t k) {
+    const glm::vec2 edge = hull[(k + 1) % hull.size()] - hull[k % hull.size()];
+    return glm::vec2(edge.y, -edge.x) / std::max(glm::length(edge), 1e-20f);
+  };
+  if (hull.empty()) return;
+  glm::vec2 before = normal(hull.size() - 1);
+  for (std::size_t k = 0; k < hull.size(); ++k) {
+    const glm::vec2 after = normal(k);
+    out.push_back(hull[k] +
+                  margin / std::max(1 + glm::dot(before, after), kSharpest) * (before + after));
+    before = after;
+  }
+}
 
 // Places in the triangle's own frame: no limits.
 OwnedVertex unlimited(OwnedVertex vertex) {
@@ -58,8 +99,8 @@ void AdaptBatchBuilder::add_pack(std::span<const std::uint32_t> collapses, bool 
   scratch_.sampled.clear(), scratch_.own_place.clear(), scratch_.released.clear();
   PackDraws draws;
   draws.sample_owned.first = batch_.owned.size();
-  add_boxes(std::exchange(owned_boxes_, {}), scratch_.released);
-  add_boxes(std::exchange(value_boxes_, {}), scratch_.own_place);
+  add_copies(written_owned_, scratch_.released);
+  add_copies(written_, scratch_.own_place);
   for (const std::uint32_t collapse : collapses) {
     const Adaptation adaptation = log_.of(collapse);
     read_points(adaptation, is_collapse);
@@ -109,9 +150,7 @@ bool AdaptBatchBuilder::is_own_place(const AdaptationTriangle& t, bool is_collap
 void AdaptBatchBuilder::add_plain(const Adaptation& adaptation, bool is_collapse) {
   add_triangles(adaptation, is_collapse, false);
   if (has_original_ && !is_collapse) add_triangles(adaptation, is_collapse, true);
-  Bounds to;
-  to.add(scratch_.to);
-  value_boxes_.push_back({glm::floor(to.lo), glm::floor(to.hi) + 1.0f});
+  add_outline(scratch_.to, written_);
 }
 
 // Those that are sampled, or those that get their own place.
@@ -153,20 +192,18 @@ void AdaptBatchBuilder::add_owned(const Adaptation& adaptation, bool is_collapse
   });
   visit_cells([&](const AdaptationTriangle&, const TexelTriangle& from, const TexelTriangle& to) {
     vertex.owner = has_border ? kInsideChart | vertex.name : 0;
+    vertex.n_corners &= kOwnPlaceBit;
     for (std::size_t k = 0; k < 3; ++k) {
       vertex.to = to[k], vertex.local = from[k];
       batch_.owned.push_back(vertex);
     }
   });
-  Bounds written;
-  written.add(scratch_.to);
-  if (has_border) {
-    written.add(scratch_.from);
-    written.lo -= 2 * kGutter, written.hi += 2 * kGutter;
-    for (const AdaptationTriangle& t : adaptation.triangles)
-      tiles_.mark(written.lo, written.hi, owner_name(t.chart));
-  }
-  owned_boxes_.push_back({glm::floor(written.lo), glm::floor(written.hi) + 1.0f});
+  if (!has_border) return add_outline(scratch_.to, written_owned_);
+  Bounds bounds;
+  bounds.add(scratch_.from), bounds.add(scratch_.to);
+  for (const AdaptationTriangle& t : adaptation.triangles)
+    tiles_.mark(bounds.lo - 2 * kGutter, bounds.hi + 2 * kGutter, owner_name(t.chart));
+  add_box(written_owned_);
 }
 
 // What the star held is no chart's until it is written again.
@@ -213,17 +250,37 @@ void AdaptBatchBuilder::add_gutter(const TexelTriangle& from, const TexelTriangl
   }
 }
 
-// Rectangles of texels that stay as they are in the texture that is read.
-void AdaptBatchBuilder::add_boxes(const std::vector<Box>& boxes,
-                                  std::vector<std::uint32_t>& indices) {
-  for (const Box& box : boxes) {
-    const auto base = static_cast<std::uint32_t>(batch_.vertices.size());
-    const glm::vec2 lo = glm::max(box.lo, glm::vec2(0)) - 0.5f;
-    const glm::vec2 hi = glm::min(box.hi, glm::vec2(width_px_, height_px_)) + 0.5f;
-    for (const glm::vec2& p : {lo, glm::vec2(hi.x, lo.y), hi, glm::vec2(lo.x, hi.y)})
-      batch_.vertices.push_back({p, glm::vec2(0)});
-    for (const std::uint32_t k : {0, 1, 2, 0, 2, 3}) indices.push_back(base + k);
+// Around what is written inside a chart.
+void AdaptBatchBuilder::add_outline(std::vector<glm::vec2>& points, Outlines& outlines) {
+  const glm::vec2 size(width_px_, height_px_);
+  for (glm::vec2& p : points) p = glm::clamp(p, -size, 2.0f * size);
+  const std::vector<glm::vec2> hull = convex_hull(points);
+  append_widened(hull, kSnap, outlines.corners);
+  outlines.n_corners.push_back(hull.size());
+}
+
+// Around a star at a border, with its gutters.
+void AdaptBatchBuilder::add_box(Outlines& outlines) {
+  const glm::vec2 size(width_px_, height_px_);
+  Bounds bounds;
+  bounds.add(scratch_.from), bounds.add(scratch_.to);
+  const glm::vec2 lo = glm::clamp(bounds.lo - 2 * kGutter, -size, 2.0f * size);
+  const glm::vec2 hi = glm::clamp(bounds.hi + 2 * kGutter, -size, 2.0f * size);
+  for (const glm::vec2& p : {lo, glm::vec2(hi.x, lo.y), hi, glm::vec2(lo.x, hi.y)})
+    outlines.corners.push_back(p);
+  outlines.n_corners.push_back(4);
+}
+
+// What the last pack wrote, and a little around it.
+void AdaptBatchBuilder::add_copies(Outlines& outlines, std::vector<std::uint32_t>& indices) {
+  auto base = static_cast<std::uint32_t>(batch_.vertices.size());
+  for (const glm::vec2& p : outlines.corners) batch_.vertices.push_back({p, glm::vec2(0)});
+  for (const std::size_t n : outlines.n_corners) {
+    for (std::uint32_t k = 2; k < n; ++k)
+      for (const std::uint32_t corner : {0u, k - 1, k}) indices.push_back(base + corner);
+    base += static_cast<std::uint32_t>(n);
   }
+  outlines.corners.clear(), outlines.n_corners.clear();
 }
 
 DrawRange AdaptBatchBuilder::append(const std::vector<std::uint32_t>& indices) {

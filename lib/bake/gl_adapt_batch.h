@@ -75,8 +75,9 @@ class AdaptBatchBuilder {
   std::size_t n_bytes() const { return batch_.n_bytes(); }
 
  private:
-  struct Box {  // whole texels
-    glm::vec2 lo, hi;
+  struct Outlines {  // convex
+    std::vector<glm::vec2> corners;
+    std::vector<std::size_t> n_corners;
   };
   struct Scratch {
     std::vector<glm::vec2> from, to;
@@ -91,7 +92,9 @@ class AdaptBatchBuilder {
   void add_release(const Adaptation& adaptation);
   void add_gutter(const TexelTriangle& from, const TexelTriangle& to, std::size_t edge,
                   OwnedVertex vertex);
-  void add_boxes(const std::vector<Box>& boxes, std::vector<std::uint32_t>& indices);
+  void add_outline(std::vector<glm::vec2>& points, Outlines& outlines);
+  void add_box(Outlines& outlines);
+  void add_copies(Outlines& outlines, std::vector<std::uint32_t>& indices);
   DrawRange append(const std::vector<std::uint32_t>& indices);
 
   const AdaptationLog& log_;
@@ -100,7 +103,7 @@ class AdaptBatchBuilder {
   OwnerTiles tiles_;
   AdaptBatch batch_;
   Scratch scratch_;
-  std::vector<Box> value_boxes_, owned_boxes_;  // written by the last pack
+  Outlines written_, written_owned_;  // by the last pack
 };
 
 }  // namespace viewcell

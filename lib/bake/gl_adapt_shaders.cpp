@@ -73,16 +73,17 @@ void store(Value v) {
 }
 )";
 
+// Bilinear. Gathered at the corner between four texels, whose weights are of single precision;
+// those of a filtering sampler may have eight bits. Four texelFetch() take a quarter longer in
+// llvmpipe.
 constexpr const char* kSample = R"(
 layout(location = 0) noperspective in vec2 source;
 void main() {
   vec2 at = clamp(source, vec2(0), vec2(kSize - 1));
-  ivec2 p = ivec2(at), q = min(p + 1, kSize - 1);
-  vec2 f = at - vec2(p);
-  Value a = value_at(p), b = value_at(ivec2(q.x, p.y));
-  Value c = value_at(ivec2(p.x, q.y)), d = value_at(q);
-  Value bottom = a + f.x * (b - a), top = c + f.x * (d - c);
-  store(bottom + f.y * (top - bottom));
+  vec2 p = floor(at), f = at - p, g = 1 - f;
+  vec2 corner = (p + 1) / vec2(kSize);
+  vec4 weights = vec4(g.x * f.y, f.x * f.y, f.x * g.y, g.x * g.y);
+  store(Value(GATHER));
 }
 )";
 
@@ -158,7 +159,7 @@ Value sample_own(vec2 source) {
 void main() {
   uint owner = owner_at(here());
   if (what.x != 0u) {
-    bool is_free = (owner & kInside) == 0u;
+    bool is_free = (owner & kInside) == 0u || owner == what.x;
     if (!is_free && !(owner == (kInside | what.y) && is_in_star(vec2(here())))) discard;
     owner = what.x;
   }
@@ -179,9 +180,12 @@ AdaptPrograms make_adapt_programs(const Gl& gl, int width_px, int height_px, int
   const std::string vertex = kVersion + size + kPlace;
   const std::string fragment =
       kVersion + size +
-      (is_color ? "#define Value vec4\n#define CHANNELS rgba\n#define FILL , 0, 0\n"
-                : "#define Value vec2\n#define CHANNELS rg\n#define FILL\n") +
-      kValues + (rounds_to_half ? kStoreHalf : kStoreExact);
+      (is_color
+           ? "#define Value vec4\n#define CHANNELS rgba\n#define FILL , 0, 0\n#define GATHER G(0), "
+             "G(1), G(2), G(3)\n"
+           : "#define Value vec2\n#define CHANNELS rg\n#define FILL\n#define GATHER G(0), G(1)\n") +
+      "#define G(k) dot(textureGather(values, corner, k), weights)\n" + kValues +
+      (rounds_to_half ? kStoreHalf : kStoreExact);
   return {GlProgram(gl, "copy owned texels", vertex + kCopyVertex, fragment + kCopyOwned),
           GlProgram(gl, "copy texels", vertex + kCopyVertex, fragment + kCopyValues),
           GlProgram(gl, "adapt texels", vertex + kSampleVertex, fragment + kSample),
