@@ -13,8 +13,6 @@
 namespace viewcell {
 namespace {
 
-constexpr std::size_t kBatchBytes = 4 << 20;  // uploaded at once
-
 struct TexelFormat {
   GLenum internal_format, format, type;
 };
@@ -171,7 +169,7 @@ void GlTextureAdapter<Texel>::Engine::go_to(std::size_t n_collapsed) {
     builder_.add_pack(
         std::span(packs.order).subspan(packs.first[p], packs.first[p + 1] - packs.first[p]),
         is_collapse);
-    if (builder_.n_bytes() >= kBatchBytes) draw(builder_.take());
+    if (builder_.n_bytes() >= options_.batch_bytes) draw(builder_.take());
   }
   draw(builder_.take());
   n_collapsed_ = n_collapsed;

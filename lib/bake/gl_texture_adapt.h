@@ -11,6 +11,7 @@ namespace viewcell {
 struct GlAdaptOptions {
   /// Disjoint collapses in one change of the target; false: a change each.
   bool pack = true;
+  std::size_t batch_bytes = 4 << 20;  ///< vertices uploaded at once; at least one pack
 };
 
 struct GlAdaptCounts {
