@@ -253,6 +253,7 @@ void AdaptBatchBuilder::add_gutter(const TexelTriangle& from, const TexelTriangl
 // Around what is written inside a chart.
 void AdaptBatchBuilder::add_outline(std::vector<glm::vec2>& points, Outlines& outlines) {
   const glm::vec2 size(width_px_, height_px_);
+  std::erase_if(points, [](const glm::vec2& p) { return std::isnan(p.x + p.y); });
   for (glm::vec2& p : points) p = glm::clamp(p, -size, 2.0f * size);
   const std::vector<glm::vec2> hull = convex_hull(points);
   append_widened(hull, kSnap, outlines.corners);

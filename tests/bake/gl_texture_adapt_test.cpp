@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <cstdio>
 
 #include "bake/texel_owners.h"
 #include "gl/context.h"
@@ -49,7 +51,8 @@ struct Levels {
 
   // half_gap: of the texture, between the charts.
   explicit Levels(bool is_split, float half_gap = 0.01f)
-      : Levels(build(make_bump(is_split, half_gap))) {}
+      : Levels(build(make_bump(is_split, half_gap), 40)) {}
+  explicit Levels(const TriMesh& input) : Levels(build(input, 2)) {}
   LevelCharts charts(std::size_t n_collapsed) {
     mesh.set_level(mesh.n_splits() - n_collapsed);
     return make_level_charts(mesh, log);
@@ -58,11 +61,11 @@ struct Levels {
  private:
   explicit Levels(const BuildResult& built)
       : mesh(built.record), log(make_adaptation_log(built.record)) {}
-  static BuildResult build(const TriMesh& bump) {
+  static BuildResult build(const TriMesh& input, std::size_t n_faces) {
     BuildOptions options;
     options.metric = MetricKind::mapping;
-    options.target_faces = 40;
-    return build_progressive_mesh(bump, options);
+    options.target_faces = n_faces;
+    return build_progressive_mesh(input, options);
   }
 };
 
@@ -102,7 +105,7 @@ INSTANTIATE_TEST_SUITE_P(Charts, GlTextureAdapterOf, testing::Values(false, true
                          [](const auto& charts) { return charts.param ? "Two" : "One"; });
 
 // Single collapses and splits, each from the same map and charts. 1/255 of the map's range would be
-// a texel; 0.013 were found, of samples of which the chart has next to nothing, else 0.0004.
+// a texel; 0.013 were found.
 TEST_P(GlTextureAdapterOf, EachAdaptationIsTheEngines) {
   Levels bump(GetParam(), 0.004f);  // two texels: samples must tell charts apart
   const std::size_t n = bump.log.n_collapses();
@@ -246,6 +249,48 @@ TEST(OwnerTiles, TellOthersNearby) {
   tiles.mark({-5, 20}, {3, 40}, 1);
   EXPECT_TRUE(tiles.has_others({-9, -9}, {90, 90}, 2));
   EXPECT_FALSE(tiles.has_others({8, 8}, {90, 90}, 2));
+}
+
+// A grid of squares with waves, all over a texture, to half of its collapses; best of three.
+void print_times(int n_squares) {
+  TriMesh grid = make_flat_grid(n_squares);
+  for (glm::vec3& p : grid.positions) {
+    p /= static_cast<float>(n_squares);
+    p.z = 0.1f * std::sin(12.566f * p.x) * std::sin(18.85f * p.y);
+  }
+  for (const Triangle& t : grid.triangles)
+    for (const std::uint32_t v : t)
+      grid.texcoords.emplace_back(0.01f + 0.98f * grid.positions[v].x,
+                                  0.01f + 0.98f * grid.positions[v].y);
+  Levels levels(grid);
+  const std::size_t n = levels.log.n_collapses() / 2;
+  const LevelCharts charts = levels.charts(0);
+  const IndexMap start = make_index_map<glm::vec2>(1024, 1024);
+  const auto best_us = [&](auto& adapter) {
+    double best = 1e30;
+    for (int k = 0; k < 3; ++k) {
+      const auto begin = std::chrono::steady_clock::now();
+      adapter.go_to(n);
+      gl().Finish();
+      const std::chrono::duration<double> time = std::chrono::steady_clock::now() - begin;
+      best = std::min(best, 1e6 * time.count() / static_cast<double>(n));
+      adapter.go_to(0);
+      gl().Finish();
+    }
+    return best;
+  };
+  TextureAdapter<glm::vec2> cpu(levels.log, start, charts);
+  GlTextureAdapter<glm::vec2> packed(gl(), levels.log, start, charts);
+  GlTextureAdapter<glm::vec2> one(gl(), levels.log, start, charts, 0, {.pack = false});
+  const double cpu_us = best_us(cpu), packed_us = best_us(packed), one_us = best_us(one);
+  std::printf("%d x %d: us an adaptation: %.2f by GL, %.2f one by one, %.2f by the processor\n",
+              n_squares, n_squares, packed_us, one_us, cpu_us);
+  EXPECT_LT(packed_us, one_us);
+}
+
+TEST(SlowGlTextureAdapter, Times) {
+  print_times(62);
+  print_times(187);
 }
 
 }  // namespace
