@@ -8,9 +8,8 @@
 
 namespace viewcell {
 
-/// Gutters around charts, and how far from a chart samples may lie; texels.
+/// Width of the gutters around charts, texels.
 inline constexpr float kGutter = 2;
-inline constexpr float kGutterReach = 1;
 
 /// Collapses, pack by pack: no adaptation of a pack writes a texel that another one of it reads or
 /// writes. Each stands behind all that it depends on.

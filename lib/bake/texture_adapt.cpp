@@ -458,8 +458,8 @@ void TextureAdapter<Texel>::Engine::gather_gutter(const Cell& cell, std::size_t 
   // No farther from the edge than there are texels of the chart.
   const auto limit = [&](const glm::vec2& at) {
     const float beyond = glm::dot(at - q, from_out), t = glm::dot(at - q, from_along);
-    return at - std::max(beyond - kGutterReach, 0.0f) * from_out +
-           (std::clamp(t, -kGutterReach, from_length + kGutterReach) - t) * from_along;
+    return at - std::max(beyond - kGutter, 0.0f) * from_out +
+           (std::clamp(t, -kGutter, from_length + kGutter) - t) * from_along;
   };
   for (const TexelTriangle& half :
        {TexelTriangle{strip[0], strip[1], strip[2]}, {strip[0], strip[2], strip[3]}}) {

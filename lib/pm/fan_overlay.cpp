@@ -145,9 +145,12 @@ FanOverlay::Corner FanOverlay::cross(const Ray& old_edge, const Ray& new_edge) {
   return {shift, before, add_point(glm::dvec2(0), glm::dvec2(0))};
 }
 
+// What moves along an old edge takes the nearest place on the new edge.
+//
 // Along old edge i the crossings with new edges i + 1 ... middle come ever nearer to the old apex;
 // along new edge j those with old edges 1 ... j - 1 go ever farther from the new apex.
-void FanOverlay::order_crossings(std::size_t middle) {
+template <typename RayAt>
+void FanOverlay::order_crossings(std::size_t middle, const RayAt& ray) {
   const auto at = [&](std::size_t i, std::size_t j) -> Crossing& {
     return crossings_[(i - 1) * middle - i * (i - 1) / 2 + (j - i - 1)];
   };
@@ -156,7 +159,14 @@ void FanOverlay::order_crossings(std::size_t middle) {
     for (std::size_t j = middle; j > i; --j) along_.push_back(at(i, j).s);
     if (!space_out(along_, pools_)) continue;
     ++n_moved_points_;
-    for (std::size_t j = middle; j > i; --j) at(i, j).s = along_[middle - j];
+    for (std::size_t j = middle; j > i; --j) {
+      Crossing& crossing = at(i, j);
+      if (crossing.s == along_[middle - j]) continue;
+      crossing.s = along_[middle - j];
+      const Double4 before = crossing.s * ray(i).to - apex_;
+      if (ray(j).from_apex2 > 0)
+        crossing.t = std::clamp(dot(before, ray(j).from_apex) / ray(j).from_apex2, 0.0, 1.0);
+    }
   }
   for (std::size_t j = 2; j <= middle; ++j) {
     along_.clear();
@@ -170,7 +180,7 @@ void FanOverlay::order_crossings(std::size_t middle) {
 // The points of a side's crossings, which were added as the last ones, row by row.
 template <typename RayAt>
 void FanOverlay::place_crossings(std::size_t middle, const RayAt& ray) {
-  order_crossings(middle);
+  order_crossings(middle, ray);
   std::size_t k = 0;
   for (std::size_t i = 1; i < middle; ++i)
     for (std::size_t j = i + 1; j <= middle; ++j, ++k) {

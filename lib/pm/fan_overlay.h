@@ -118,7 +118,8 @@ class FanOverlay {
   Corner new_apex(const FanPoint& before);
   Corner on_rim(const Ray& ray) const;
   std::uint32_t add_point(const glm::dvec2& before, const glm::dvec2& after);
-  void order_crossings(std::size_t middle);
+  template <typename RayAt>
+  void order_crossings(std::size_t middle, const RayAt& ray);
   template <typename RayAt>
   void place_crossings(std::size_t middle, const RayAt& ray);
   void add_apex(std::size_t ray, std::uint32_t new_face, const Corner& apex);
