@@ -326,7 +326,8 @@ template <typename Texel>
 void TextureAdapter<Texel>::Engine::go_to(std::size_t n_collapsed) {
   const bool is_collapse = n_collapsed > n_collapsed_;
   const AdaptPacks packs =
-      pack_adaptations(log_, n_collapsed_, n_collapsed, width_px_, height_px_, options_.pack);
+      pack_adaptations(log_, n_collapsed_ * log_.steps_per_collapse,
+                       n_collapsed * log_.steps_per_collapse, width_px_, height_px_, options_.pack);
   const int n_threads = options_.pack ? options_.n_threads : 1;
   const auto ahead = static_cast<std::size_t>(n_threads);
   parallel_rounds(packs.first, n_threads, [&](std::size_t i, int thread) {

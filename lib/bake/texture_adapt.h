@@ -13,7 +13,6 @@
 
 namespace viewcell {
 
-
 /// Coordinates of less precision: whole numbers / 65535, / 255, and 16-bit floats.
 struct Unorm16Texel {
   std::array<std::uint16_t, 2> uv;

@@ -14,7 +14,8 @@ namespace {
 // Corners are 16-bit places.
 constexpr std::size_t kMostPoints = 65535;
 
-// The input as it stands before the first collapse, in the numbers of the record.
+// The input as it stands before the first collapse, in the numbers of the record; then, with
+// full-edge collapses, as vertices move.
 struct Finest {
   WedgeMesh wedges;
   std::vector<Triangle> triangles;    // of vertices
@@ -44,9 +45,14 @@ void find_charts(Finest& mesh) {
   }
 }
 
-Finest make_finest(const ProgressiveRecord& record) {
+ProgressiveMesh at_finest(const ProgressiveRecord& record) {
   ProgressiveMesh mesh(record);
   mesh.set_level(mesh.n_splits());
+  return mesh;
+}
+
+Finest make_finest(const ProgressiveMesh& mesh) {
+  const ProgressiveRecord& record = mesh.record();
   Finest out;
   out.wedges.positions.assign(record.attributes.positions.begin(),
                               record.attributes.positions.end());
@@ -54,7 +60,7 @@ Finest make_finest(const ProgressiveRecord& record) {
   const std::size_t n = record.attributes.positions.size();
   for (std::size_t w = 0; w < record.texcoords.size(); ++w)
     out.wedges.wedge_vertex.push_back(record.vertex_of[w < n ? w : record.extra_sources[w - n]]);
-  out.wedges.faces = mesh.record().faces;
+  out.wedges.faces = record.faces;
   out.triangles = out.wedges.vertex_triangles();
   find_charts(out);
   return out;
@@ -74,38 +80,27 @@ int turn_of(const glm::vec2& a, const glm::vec2& b, const glm::vec2& c) {
 class LogBuilder {
  public:
   explicit LogBuilder(const ProgressiveRecord& record)
-      : finest_(make_finest(record)),
+      : coarser_(at_finest(record)),
+        finest_(make_finest(coarser_)),
+        is_adapted_(finest_.wedges.faces.size(), false),
         mesh_(finest_.wedges.positions, finest_.triangles),
         table_(finest_.wedges),
         map_(mesh_, table_, finest_.wedges.positions, finest_.wedges.texcoords, Matching::nearest,
              {.texture = true}) {
     log_.charts = finest_.charts;
     log_.n_charts = finest_.n_charts;
-    log_.first_point.reserve(record.splits.size() + 1);
-    log_.first_triangle.reserve(record.splits.size() + 1);
+    log_.steps_per_collapse = record.is_full_edge() ? 2 : 1;
+    log_.first_point.reserve(log_.steps_per_collapse * record.splits.size() + 1);
+    log_.first_triangle.reserve(log_.first_point.capacity());
     mark_start();
   }
 
-  void collapse(std::uint32_t u, std::uint32_t v) {
-    if (!map_.lay(u, v) || map_.overlay().texture_points().size() > kMostPoints) {
-      ++log_.n_unmapped;
-    } else if (!add_points() || !add_cells()) {
-      log_.points.resize(log_.first_point.back());
-      log_.triangles.resize(log_.first_triangle.back());
-      ++log_.n_folded;
-    } else {
-      mark_borders();
-      log_.n_moved += map_.overlay().n_moved_points();
-    }
-    table_.match(mesh_, u, v, false);
-    mesh_.collapse(u, v, &trace_);
-    table_.apply(trace_);
-    map_.forget();
-    mark_start();
-  }
+  /// The next one, from fine to coarse.
+  void collapse();
   AdaptationLog& log() { return log_; }
 
  private:
+  enum class Step { done, folded, unmapped };
   struct Edge {
     std::uint16_t a, b;  // a < b
     std::uint32_t at;    // 3 * triangle + place
@@ -114,6 +109,12 @@ class LogBuilder {
     log_.first_point.push_back(static_cast<std::uint32_t>(log_.points.size()));
     log_.first_triangle.push_back(static_cast<std::uint32_t>(log_.triangles.size()));
   }
+  void find_moves(const VertexSplit& split);
+  void move(std::uint32_t v, const glm::vec3& place, std::span<const WedgeMove> moves);
+  void merge(const VertexSplit& split);
+  void collapse_edge(const VertexSplit& split, Step step);
+  Step add(bool is_laid, bool is_move = false);
+  void end_step(Step step);
   bool add_points();
   bool add_cells();
   bool add_triangle(const AdaptationTriangle& triangle, int turn);
@@ -121,14 +122,17 @@ class LogBuilder {
   bool is_border(const Edge& edge) const;
   bool has_neighbour(std::uint32_t face, std::uint32_t u) const;
   int turn_of_face(std::uint32_t face) const;
-  bool is_original(std::uint32_t face) const;
 
+  ProgressiveMesh coarser_;  // after the collapse
   Finest finest_;
+  std::vector<bool> is_adapted_;  // faces, by some step
+  std::vector<WedgeMove> moves_;  // of the last full-edge collapse
   CollapseMesh mesh_;
   WedgeTable table_;
   CollapseMap map_;
   CollapseTrace trace_;
   AdaptationLog log_;
+  bool is_move_ = false;  // the last step
   std::vector<Edge> edges_;
   std::vector<std::uint32_t> faces_;  // old ones, of the collapse's triangles
 };
@@ -140,10 +144,93 @@ int LogBuilder::turn_of_face(std::uint32_t face) const {
   return turn_of(corner(0), corner(1), corner(2));
 }
 
-bool LogBuilder::is_original(std::uint32_t face) const {
-  const Triangle& f = finest_.wedges.faces[face];
-  return table_.at(3 * face) == f[0] && table_.at(3 * face + 1) == f[1] &&
-         table_.at(3 * face + 2) == f[2];
+// The texture coordinates that the wedges of the vertex that stays have after the collapse.
+void LogBuilder::find_moves(const VertexSplit& split) {
+  moves_.clear();
+  const ProgressiveRecord& record = coarser_.record();
+  const std::size_t first = coarser_.first_pair();
+  for (std::size_t i = first; i < first + split.n_pairs; ++i) {
+    const std::uint32_t wedge = record.pairs[i].parent;
+    const auto same = [&](const WedgeMove& m) { return m.wedge == wedge; };
+    if (std::none_of(moves_.begin(), moves_.end(), same))
+      moves_.push_back({wedge, record.texcoords[wedge]});
+  }
+}
+
+void LogBuilder::move(std::uint32_t v, const glm::vec3& place, std::span<const WedgeMove> moves) {
+  finest_.wedges.positions[v] = place;
+  for (const WedgeMove& m : moves) finest_.wedges.texcoords[m.wedge] = m.texcoord;
+  map_.forget();
+}
+
+// The child goes; each of its wedges becomes one of the parent's.
+void LogBuilder::merge(const VertexSplit& split) {
+  table_.match(mesh_, split.child, split.parent, log_.steps_per_collapse == 2);
+  mesh_.collapse(split.child, split.parent, &trace_);
+  table_.apply(trace_);
+  map_.forget();
+}
+
+void LogBuilder::collapse() {
+  coarser_.coarsen();
+  const VertexSplit split = coarser_.record().splits[coarser_.level()];
+  const Step step = add(map_.lay(split.child, split.parent));
+  if (log_.steps_per_collapse == 2) return collapse_edge(split, step);
+  end_step(step);
+  merge(split);
+}
+
+// A full-edge collapse in the first way that no face turns over: the child goes to the parent,
+// which then moves; the parent goes to the child; the parent moves first.
+void LogBuilder::collapse_edge(const VertexSplit& split, Step step) {
+  const std::uint32_t u = split.child, v = split.parent;
+  const glm::vec3 place = coarser_.record().attributes.positions[v];
+  find_moves(split);
+  const auto end_with_move = [&] {
+    merge(split);
+    end_step(add(map_.lay_move(v, glm::dvec3(place), moves_), true));
+    move(v, place, moves_);
+  };
+  if (step == Step::done) {
+    end_step(step);
+    return end_with_move();
+  }
+  if (add(map_.lay(v, u)) == Step::done) {
+    end_step(Step::done);
+    // From here on the parent stands where the child is.
+    std::vector<WedgeMove> there;
+    table_.match(mesh_, u, v, true);
+    for (const WedgeTable::Pair& pair : table_.pairs())
+      there.push_back({pair.to, finest_.wedges.texcoords[pair.from]});
+    move(v, finest_.wedges.positions[u], there);
+    return end_with_move();
+  }
+  end_step(add(map_.lay_move(v, glm::dvec3(place), moves_), true));
+  move(v, place, moves_);
+  end_step(add(map_.lay(u, v)));
+  merge(split);
+}
+
+void LogBuilder::end_step(Step step) {
+  log_.n_folded += step == Step::folded;
+  log_.n_unmapped += step == Step::unmapped;
+  if (step != Step::unmapped)
+    for (const std::uint32_t face : map_.faces()) is_adapted_[face] = true;
+  mark_start();
+}
+
+// The step as the map lies now; nothing of it unless it is done.
+LogBuilder::Step LogBuilder::add(bool is_laid, bool is_move) {
+  is_move_ = is_move;
+  if (!is_laid || map_.overlay().texture_points().size() > kMostPoints) return Step::unmapped;
+  if (!add_points() || !add_cells()) {
+    log_.points.resize(log_.first_point.back());
+    log_.triangles.resize(log_.first_triangle.back());
+    return Step::folded;
+  }
+  mark_borders();
+  log_.n_moved += map_.overlay().n_moved_points();
+  return Step::done;
 }
 
 bool LogBuilder::add_points() {
@@ -165,7 +252,7 @@ bool LogBuilder::add_cells() {
     const int turn = turn_of_face(face);
     for (std::size_t k = 2; k < 4; ++k) {
       AdaptationTriangle triangle{{}, 0, finest_.charts[face]};
-      triangle.flags = is_original(face) ? 8 : 0;
+      triangle.flags = is_adapted_[face] ? 0 : 8;
       const std::array<std::uint32_t, 3> corners{c[0], c[k - 1], c[k]};
       if (corners[0] == corners[1] || corners[1] == corners[2] || corners[0] == corners[2])
         continue;
@@ -205,8 +292,11 @@ bool LogBuilder::has_neighbour(std::uint32_t face, std::uint32_t u) const {
 // Of an edge of one triangle only: it ends in u, or no face outside the star has it.
 bool LogBuilder::is_border(const Edge& edge) const {
   const auto& points = map_.overlay().texture_points();
-  return points[edge.a].is_old_apex || points[edge.b].is_old_apex ||
-         !has_neighbour(faces_[edge.at / 3], map_.u());
+  const auto is_apex = [&](std::uint16_t point) {
+    // The new apex of a collapse is a vertex of the star's rim.
+    return points[point].is_old_apex || (is_move_ && points[point].is_new_apex);
+  };
+  return is_apex(edge.a) || is_apex(edge.b) || !has_neighbour(faces_[edge.at / 3], map_.u());
 }
 
 void LogBuilder::mark_borders() {
@@ -246,10 +336,10 @@ LevelCharts make_level_charts(const ProgressiveMesh& mesh, const AdaptationLog& 
 }
 
 AdaptationLog make_adaptation_log(const ProgressiveRecord& record, const Progress& progress) {
-  VIEWCELL_CHECK(!record.is_full_edge() && !record.texcoords.empty());
+  VIEWCELL_CHECK(!record.texcoords.empty());
   LogBuilder builder(record);
   for (std::size_t i = record.splits.size(); i-- > 0;) {
-    builder.collapse(record.splits[i].child, record.splits[i].parent);
+    builder.collapse();
     if (progress && i % 1024 == 0) progress(record.splits.size() - i, record.splits.size());
   }
   return std::move(builder.log());

@@ -33,31 +33,32 @@ struct AdaptationTriangle {
 };
 static_assert(sizeof(AdaptationPoint) == 16 && sizeof(AdaptationTriangle) == 12);
 
-/// What one collapse adapts: the star of the vertex that goes.
+/// What one step adapts: the star of the vertex that goes, or that moves.
 struct Adaptation {
   std::span<const AdaptationPoint> points;
   std::span<const AdaptationTriangle> triangles;
 };
 
-/// The collapses of a progressive mesh from its finest level to its base. A collapse with no
-/// triangles leaves the texture as it is. About 250 bytes a collapse.
+/// The collapses of a progressive mesh from its finest level to its base, step by step: a half-edge
+/// collapse is one step; a full-edge collapse is two, a half-edge collapse and a move of the vertex
+/// that stays, in either order. A step with no triangles leaves the texture as it is. About 300
+/// bytes a step.
 struct AdaptationLog {
   std::vector<AdaptationPoint> points;
   std::vector<AdaptationTriangle> triangles;
-  std::vector<std::uint32_t> first_point,
-      first_triangle;                 ///< of each collapse; one more at the end
+  std::vector<std::uint32_t> first_point, first_triangle;  ///< of each step; one more at the end
+  std::size_t steps_per_collapse = 1;
   std::vector<std::uint32_t> charts;  ///< of the record's faces
   std::size_t n_charts = 0;
-  std::size_t n_folded = 0;    ///< collapses that turn a face over in the texture
-  std::size_t n_unmapped = 0;  ///< collapses that have no map of cells
+  std::size_t n_folded = 0;    ///< steps that turn a face over in the texture
+  std::size_t n_unmapped = 0;  ///< steps that have no map of cells
   std::size_t n_moved = 0;     ///< edges with points that had to be moved, lest cells fold
-  /// Of the progressive mesh, see hash_splits().
-  std::uint64_t mesh_hash = 0;
 
-  std::size_t n_collapses() const { return first_point.empty() ? 0 : first_point.size() - 1; }
-  Adaptation of(std::size_t collapse) const {
+  std::size_t n_steps() const { return first_point.empty() ? 0 : first_point.size() - 1; }
+  std::size_t n_collapses() const { return n_steps() / steps_per_collapse; }
+  Adaptation of(std::size_t step) const {
     const auto part = [&](auto& all, const std::vector<std::uint32_t>& first) {
-      return std::span(all).subspan(first[collapse], first[collapse + 1] - first[collapse]);
+      return std::span(all).subspan(first[step], first[step + 1] - first[step]);
     };
     return {part(points, first_point), part(triangles, first_triangle)};
   }
@@ -71,8 +72,8 @@ struct LevelCharts {
 LevelCharts make_level_charts(const ProgressiveMesh& mesh, const AdaptationLog& log);
 
 /// Lays the cells of every collapse again, points matched by nearness as in the mapping metric. The
-/// record must be of half-edge collapses, have texture coordinates and be sound (see check_record).
-/// About 3 us a collapse. Follows: [Chen06 3.2.2].
+/// record must have texture coordinates and be sound (see check_record). About 3 us a step.
+/// Follows: [Chen06 3.2.2].
 AdaptationLog make_adaptation_log(const ProgressiveRecord& record, const Progress& progress = {});
 
 }  // namespace viewcell

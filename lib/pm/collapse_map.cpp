@@ -150,12 +150,9 @@ void CollapseMap::choose_by_distance(const Sector& sector, Place& place) const {
     place.middle = j;
     place.after.at = p;
   }
-  if (overlay_.keeps_texture() && best < kInfinity) {
-    const CollapseStar::Rim &v = rim[0], &b = rim[place.middle], &c = rim[place.middle + 1];
-    glm::dvec3 w = barycentric(place.after.at, place.apex, b.to, c.to);
-    w = (w + glm::dvec3(kInside)) / (1 + 3 * kInside);
-    place.after.texture = w.x * v.uv + w.y * b.uv + w.z * c.uv;
-  }
+  if (best < kInfinity)
+    place.after =
+        point_on({place.apex, rim[0].uv}, rim[place.middle], rim[place.middle + 1], place.after.at);
 }
 
 bool CollapseMap::lay(std::uint32_t u, std::uint32_t v) {
@@ -221,20 +218,34 @@ bool CollapseMap::lay_lone(const Sector& sector, const Place& place, std::uint32
   return true;
 }
 
-bool CollapseMap::lay_move(std::uint32_t v, const glm::dvec3& apex) {
+bool CollapseMap::lay_move(std::uint32_t v, const glm::dvec3& apex,
+                           std::span<const WedgeMove> texcoords) {
   overlay_.clear();
   if (!gather(v)) return false;
   const glm::dvec3 to = apex - glm::dvec3(positions_[v]);
   if (!is_finite(to)) return false;
-  for (const Sector& sector : star_.sectors())
-    if (!(sector.is_closed ? move_closed(sector, to) : move_open(sector, to))) return false;
+  for (const Sector& sector : star_.sectors()) {
+    FanPoint place{to};
+    for (const WedgeMove& move : texcoords)
+      if (move.wedge == sector.wedge) place.texture = glm::dvec2(move.texcoord) - sector.origin;
+    if (!(sector.is_closed ? move_closed(sector, place) : move_open(sector, place))) return false;
+  }
   return true;
 }
 
+// The point of the face (top, b, c) that lies at `at`; in the texture inside of it.
+FanPoint CollapseMap::point_on(const FanPoint& top, const CollapseStar::Rim& b,
+                               const CollapseStar::Rim& c, const glm::dvec3& at) const {
+  if (!overlay_.keeps_texture()) return {at};
+  glm::dvec3 w = barycentric(at, top.at, b.to, c.to);
+  w = (w + glm::dvec3(kInside)) / (1 + 3 * kInside);
+  return {at, w.x * top.texture + w.y * b.uv + w.z * c.uv};
+}
+
 // The new apex lies in the old face of ray 0, the old apex in the new face of ray m.
-bool CollapseMap::move_closed(const Sector& sector, const glm::dvec3& apex) {
+bool CollapseMap::move_closed(const Sector& sector, const FanPoint& apex) {
   const std::size_t n = sector.rim.size();
-  const auto at = [&](std::size_t i) { return sector.rim[i % n].to; };
+  const auto at = [&](std::size_t i) -> const CollapseStar::Rim& { return sector.rim[i % n]; };
   glm::dvec3 before(0), after(0);
   const auto find = [&](const glm::dvec3& p, const glm::dvec3& top, std::size_t but,
                         glm::dvec3& nearest) {
@@ -242,47 +253,56 @@ bool CollapseMap::move_closed(const Sector& sector, const glm::dvec3& apex) {
     std::size_t found = n;
     for (std::size_t i = 0; i < n; ++i) {
       if (i == but) continue;
-      const glm::dvec3 q = closest_point_on_triangle(p, top, at(i), at(i + 1));
+      const glm::dvec3 q = closest_point_on_triangle(p, top, at(i).to, at(i + 1).to);
       const double distance2 = glm::dot(q - p, q - p);
       if (distance2 < best) best = distance2, found = i, nearest = q;
     }
     return found;
   };
-  const std::size_t k = find(apex, glm::dvec3(0), n, before);
-  const std::size_t face = find(glm::dvec3(0), apex, k, after);
+  const std::size_t k = find(apex.at, glm::dvec3(0), n, before);
+  const std::size_t face = find(glm::dvec3(0), apex.at, k, after);
   if (k == n || face == n) return false;
-  overlay_.start({apex});
-  for (std::size_t i = 0; i <= n; ++i) overlay_.add_ray({at(k + i)}, sector.rim[(k + i) % n].face);
-  overlay_.add_ray({at(k + 1)}, 0);
+  overlay_.start(apex, sector.origin);
+  for (std::size_t i = 0; i < n; ++i)
+    overlay_.add_ray({at(k + i).to, at(k + i).uv}, at(k + i).face);
+  overlay_.repeat_ray(0), overlay_.repeat_ray(1);
   const std::size_t m = (face + n - k) % n;
-  overlay_.add_old_apex(m, {after});
-  overlay_.add_new_apex(0, {before});
-  overlay_.add_side(0, true, m, {before}, {after});
-  overlay_.add_side(n + 1, false, n - m, {before}, {after});
+  const FanPoint new_on_old = point_on({}, at(k), at(k + 1), before);
+  const FanPoint old_on_new = point_on(apex, at(face), at(face + 1), after);
+  overlay_.add_old_apex(m, old_on_new);
+  overlay_.add_new_apex(0, new_on_old);
+  overlay_.add_side(0, true, m, new_on_old, old_on_new);
+  overlay_.add_side(n + 1, false, n - m, new_on_old, old_on_new);
   return true;
 }
 
 // The new apex goes to the nearer of the two old boundary edges, the old apex to the other's new
 // one.
-bool CollapseMap::move_open(const Sector& sector, const glm::dvec3& apex) {
+bool CollapseMap::move_open(const Sector& sector, const FanPoint& apex) {
   const std::size_t n = sector.rim.size();
-  const auto on_edge = [&](const glm::dvec3& to) {
-    return closest_on_segment(apex, glm::dvec3(0), to) * to;
+  const auto along = [&](const CollapseStar::Rim& rim) {
+    return closest_on_segment(apex.at, glm::dvec3(0), rim.to);
   };
-  const glm::dvec3 first = on_edge(sector.rim[0].to), last = on_edge(sector.rim[n - 1].to);
-  const bool is_first = glm::distance(first, apex) <= glm::distance(last, apex);
+  const auto inside = [](double t) { return std::clamp(t, kInside, 1 - kInside); };
+  const double first = along(sector.rim[0]), last = along(sector.rim[n - 1]);
+  const bool is_first = glm::distance(first * sector.rim[0].to, apex.at) <=
+                        glm::distance(last * sector.rim[n - 1].to, apex.at);
   const Walk rim{sector, is_first ? 0 : n - 1, is_first ? 1 : -1};
-  const glm::dvec3 before = is_first ? first : last, far = rim[n - 1].to;
-  const glm::dvec3 after = glm::mix(apex, far, closest_on_segment(glm::dvec3(0), apex, far));
-  overlay_.start({apex});
-  for (std::size_t i = 0; i < n; ++i) overlay_.add_ray({rim[i].to}, i + 1 < n ? rim.face(i) : 0);
+  const double s = is_first ? first : last;
+  const FanPoint before{s * rim[0].to, inside(s) * rim[0].uv};
+  const double t = closest_on_segment(glm::dvec3(0), apex.at, rim[n - 1].to);
+  const FanPoint after{glm::mix(apex.at, rim[n - 1].to, t),
+                       glm::mix(apex.texture, rim[n - 1].uv, inside(t))};
+  overlay_.start(apex, sector.origin, !is_first);
+  for (std::size_t i = 0; i < n; ++i)
+    overlay_.add_ray({rim[i].to, rim[i].uv}, i + 1 < n ? rim.face(i) : 0);
   if (n == 2) {  // one face before and after
-    overlay_.add_old_apex(0, {apex});
+    overlay_.add_old_apex(0, apex);
     return true;
   }
-  overlay_.add_old_apex(n - 2, {after});
-  overlay_.add_new_apex(0, {before});
-  overlay_.add_side(0, true, n - 2, {before}, {after});
+  overlay_.add_old_apex(n - 2, after);
+  overlay_.add_new_apex(0, before);
+  overlay_.add_side(0, true, n - 2, before, after);
   return true;
 }
 

@@ -11,6 +11,12 @@
 
 namespace viewcell {
 
+/// New texture coordinates of a wedge.
+struct WedgeMove {
+  std::uint32_t wedge;
+  glm::vec2 texcoord;
+};
+
 /// When u collapses into v, the faces of u are mapped onto the faces that remain: the edges from u
 /// (old) and those from v (new) overlay in the star and cut it into cells, whose corners are u, the
 /// star's vertices and crossings of an old with a new edge. Each corner has a point on the old and
@@ -48,8 +54,9 @@ class CollapseMap {
   bool lay(std::uint32_t u, std::uint32_t v);
   /// The same, as if v were at `apex`. Matching::nearest only.
   bool lay(std::uint32_t u, std::uint32_t v, const glm::dvec3& apex);
-  /// The map of v's faces when v moves to `apex`. Matching::nearest only.
-  bool lay_move(std::uint32_t v, const glm::dvec3& apex);
+  /// The map of v's faces when v moves to `apex`, and in the texture its wedges to `texcoords`,
+  /// where they are given. Matching::nearest only.
+  bool lay_move(std::uint32_t v, const glm::dvec3& apex, std::span<const WedgeMove> texcoords = {});
   /// To be called when the mesh has changed.
   void forget() { star_.forget(); }
 
@@ -92,8 +99,10 @@ class CollapseMap {
   bool lay_last(std::uint32_t v);
   void lay_sector(const Sector& sector, const Place& place);
   bool lay_lone(const Sector& sector, const Place& place, std::uint32_t v);
-  bool move_closed(const Sector& sector, const glm::dvec3& apex);
-  bool move_open(const Sector& sector, const glm::dvec3& apex);
+  FanPoint point_on(const FanPoint& top, const CollapseStar::Rim& b, const CollapseStar::Rim& c,
+                    const glm::dvec3& at) const;
+  bool move_closed(const Sector& sector, const FanPoint& apex);
+  bool move_open(const Sector& sector, const FanPoint& apex);
 
   const CollapseMesh& mesh_;
   std::span<const glm::vec3> positions_;

@@ -59,7 +59,8 @@ bool CollapseStar::order(std::size_t first, std::size_t last) {
   const std::uint32_t wedge_u = spokes_[first].wedge_u;
   locate(begin, wedge_u);
   sectors_.push_back({std::span<const Rim>(rim_).subspan(begin), is_closed,
-                      texcoords_.empty() ? glm::dvec2(0) : glm::dvec2(texcoords_[wedge_u])});
+                      texcoords_.empty() ? glm::dvec2(0) : glm::dvec2(texcoords_[wedge_u]),
+                      wedge_u});
   return true;
 }
 

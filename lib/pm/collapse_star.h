@@ -26,7 +26,8 @@ class CollapseStar {
   struct Sector {
     std::span<const Rim> rim;
     bool is_closed = false;
-    glm::dvec2 origin{0};  ///< u in the texture
+    glm::dvec2 origin{0};     ///< u in the texture
+    std::uint32_t wedge = 0;  ///< of u
   };
 
   /// Keeps references. texcoords: of wedges; empty: charts do not matter.

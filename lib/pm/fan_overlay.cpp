@@ -91,8 +91,10 @@ FanOverlay::Corner FanOverlay::old_apex(const FanPoint& after) {
 }
 
 FanOverlay::Corner FanOverlay::new_apex(const FanPoint& before) {
-  if (keep_.texture && new_apex_point_ == kNone)
+  if (keep_.texture && new_apex_point_ == kNone) {
     new_apex_point_ = add_point(before.texture, apex_texture_);
+    points_.back().is_new_apex = true;
+  }
   const Double4 place = make_double4(before.at);
   return {place - apex_, place, new_apex_point_};
 }

@@ -32,7 +32,7 @@ struct CellMoments {
 /// A corner of cells in the texture: its place in the old faces and in the new ones.
 struct TexturePoint {
   glm::dvec2 before, after;
-  bool is_old_apex = false;
+  bool is_old_apex = false, is_new_apex = false;
 };
 
 /// The corners of a cell as places in texture_points(), in the winding of the faces; of a triangle
@@ -68,6 +68,11 @@ class FanOverlay {
   void start(const FanPoint& new_apex, const glm::dvec2& origin = {0, 0}, bool is_backward = false);
   /// The next place of the polygon, and the number of the faces from there on.
   void add_ray(const FanPoint& place, std::uint32_t face);
+  /// The place of ray i again, after a whole turn.
+  void repeat_ray(std::size_t i) {
+    const Ray ray = rays_[i];
+    rays_.push_back(ray);
+  }
   /// The cell around the old apex: its place on the new surface is `after`, in the new face between
   /// ray and ray + 1.
   void add_old_apex(std::size_t ray, const FanPoint& after);

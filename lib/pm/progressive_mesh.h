@@ -62,6 +62,8 @@ class ProgressiveMesh {
   std::size_t n_faces() const { return n_faces_; }
   std::size_t n_base_faces() const { return n_base_faces_; }
   std::size_t n_splits() const { return record_.splits.size(); }
+  /// Place in the record's pairs of those of split level(), the next that refine() makes.
+  std::size_t first_pair() const { return at_pair_; }
   bool has_face(std::size_t face) const { return is_alive_[face]; }
   /// Splits made so far: 0 at the base, n_splits() at the input.
   std::size_t level() const { return level_; }

@@ -66,6 +66,35 @@ TEST(TextureAdapter, FlatMeshesKeepEveryTexel) {
     ASSERT_LT(128 * glm::distance(map.pixels[i], start.pixels[i]), 0.01f) << i;
 }
 
+// On a plane every point shows what it showed before, though full-edge collapses move vertices and
+// give them texture coordinates that are no affine map of the plane any more.
+TEST(TextureAdapter, FlatMeshesShowTheSameUnderFullEdgeCollapses) {
+  BuildOptions options;
+  options.metric = MetricKind::mapping;
+  options.placement = Placement::full;
+  options.target_faces = 40;
+  Adapted flat(build_progressive_mesh(make_bump(0), options), 256);
+  flat.adapter.go_to(flat.log.n_collapses());
+  EXPECT_EQ(flat.log.n_folded + flat.log.n_unmapped, 0u);
+  flat.mesh.set_level(0);
+  const TriMesh coarse = flat.mesh.extract();
+  const IndexMap map = flat.adapter.image();
+  double moved = 0;
+  for (std::size_t t = 0; t < coarse.triangles.size(); ++t) {
+    glm::vec3 p(0);
+    glm::vec2 uv(0);
+    for (std::size_t k = 0; k < 3; ++k) {
+      p += coarse.positions[coarse.triangles[t][k]] / 3.0f;
+      uv += coarse.texcoords[3 * t + k] / 3.0f;
+    }
+    const glm::vec2 wanted(0.1f + 0.8f * p.x, 0.1f + 0.8f * p.y);
+    moved = std::max<double>(moved, 256 * glm::distance(uv, wanted));
+    const auto x = static_cast<int>(uv.x * 256), y = static_cast<int>((1 - uv.y) * 256);
+    EXPECT_LT(256 * glm::distance(map.at(x, y), wanted), 1.5) << t;  // nearest texel
+  }
+  EXPECT_GT(moved, 3);
+}
+
 // All the way back every texel of the chart is as it was, to the bit, and so is what no gutter
 // touched.
 TEST(TextureAdapter, TheWholeWayBackIsExact) {

@@ -36,8 +36,6 @@ void declare(Tool& tool, Arguments& a) {
 void check_record(const ProgressiveRecord& record, const std::string& file) {
   if (record.texcoords.empty())
     throw InputError(file, "", "has no texture coordinates, so no texture can follow it");
-  if (record.is_full_edge())
-    throw InputError(file, "", "is of full-edge collapses; build it with --placement half");
   for (const glm::vec2& uv : record.texcoords)
     if (!(uv.x >= 0 && uv.x <= 1 && uv.y >= 0 && uv.y <= 1))
       throw InputError(file, "",
