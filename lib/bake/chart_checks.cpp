@@ -273,6 +273,11 @@ std::string range(const ChartFindings& f) {
   return text;
 }
 
+std::string describe_not_finite(const ChartFindings& f) {
+  return number_of(f.n_not_finite, "triangle has", "triangles have") +
+         " texture coordinates that are no numbers, the first is " + triangle(f.first_not_finite);
+}
+
 std::string describe_outside(const ChartFindings& f) {
   if (f.tile != glm::ivec2(0))
     return "the whole mesh lies in another tile of the picture (" + range(f) + "): subtract " +
@@ -310,15 +315,20 @@ std::string describe_overlaps(const ChartFindings& f) {
 
 }  // namespace
 
+std::string find_obstacle(const ChartFindings& f, bool allows_overlap) {
+  if (f.n_not_finite > 0) return describe_not_finite(f);
+  if (f.tile != glm::ivec2(0) || f.n_repeating > 0) return describe_outside(f);
+  ChartFindings several = f;  // a chart that folds over itself shows the same either way
+  std::erase_if(several.overlaps, [](const ChartOverlap& o) { return o.first == o.second; });
+  return several.overlaps.empty() || allows_overlap ? "" : describe_overlaps(several);
+}
+
 std::string describe(const ChartFindings& f) {
   std::string out = number_of(f.n_charts, "chart", "charts");
   const auto add = [&](bool is_found, const auto& line) {
     if (is_found) out += "\n" + line();
   };
-  add(f.n_not_finite > 0, [&] {
-    return number_of(f.n_not_finite, "triangle has", "triangles have") +
-           " texture coordinates that are no numbers, the first is " + triangle(f.first_not_finite);
-  });
+  add(f.n_not_finite > 0, [&] { return describe_not_finite(f); });
   add(f.n_repeating + f.n_outside > 0, [&] { return describe_outside(f); });
   add(!f.overlaps.empty(), [&] { return describe_overlaps(f); });
   add(f.n_turned > 0, [&] {

@@ -53,6 +53,10 @@ struct ChartFindings {
 /// O(triangles log triangles + texels covered).
 ChartFindings check_charts(const TriMesh& mesh, int width_px, int height_px);
 
+/// A line that says why no texture can follow a mesh with these charts, or nothing: coordinates
+/// that are no numbers, pictures that repeat, and, unless allowed, two charts on the same texels.
+std::string find_obstacle(const ChartFindings& findings, bool allows_overlap = false);
+
 /// One line a finding, joined by line breaks; the first says how many charts there are.
 std::string describe(const ChartFindings& findings);
 

@@ -57,13 +57,6 @@ void store(Float4 v, Rgba8& t) {
 template <typename Texel>
 constexpr bool kIsIndex = !std::is_same_v<Texel, Rgba8>;
 
-float own_u(int x, int width_px) {
-  return float((x + 0.5) / width_px);
-}
-float own_v(int y, int height_px) {
-  return float(1 - (y + 0.5) / height_px);
-}
-
 // Four texels and the weights between them. Places outside count as the nearest inside.
 struct Footprint {
   int x, y;
@@ -216,8 +209,8 @@ class TextureAdapter<Texel>::Engine {
         n_collapsed_(n_collapsed),
         options_(options) {
     if (options_.n_threads <= 0) options_.n_threads = hardware_threads();
-    for (int x = 0; x < width_px_; ++x) own_u_.push_back(own_u(x, width_px_));
-    for (int y = 0; y < height_px_; ++y) own_v_.push_back(own_v(y, height_px_));
+    for (int x = 0; x < width_px_; ++x) own_u_.push_back(own_place(x, 0, width_px_, height_px_).x);
+    for (int y = 0; y < height_px_; ++y) own_v_.push_back(own_place(0, y, width_px_, height_px_).y);
     threads_.resize(static_cast<std::size_t>(options_.n_threads));
   }
 
@@ -565,7 +558,7 @@ Image<Texel> make_index_map(int width_px, int height_px) {
   Image<Texel> map(width_px, height_px);
   for (int y = 0; y < height_px; ++y)
     for (int x = 0; x < width_px; ++x)
-      store(Float4{own_u(x, width_px), own_v(y, height_px)}, map.at(x, y));
+      store(load(own_place(x, y, width_px, height_px)), map.at(x, y));
   return map;
 }
 
@@ -576,12 +569,10 @@ IndexMap float_from(const Image<Texel>& map) {
   return out;
 }
 
-ImageRgba8 bake_texture(const IndexMap& map, const ImageRgba8& texture) {
-  ImageRgba8 out(map.width_px, map.height_px);
-  const View<Rgba8> from{texture.pixels.data(), texture.width_px, texture.height_px};
-  for (std::size_t i = 0; i < map.pixels.size(); ++i)
-    store(sample(from, to_texels(map.pixels[i], texture.width_px, texture.height_px)),
-          out.pixels[i]);
+template <typename Texel>
+Image<Texel> from_float(const IndexMap& map) {
+  Image<Texel> out(map.width_px, map.height_px);
+  for (std::size_t i = 0; i < map.pixels.size(); ++i) store(load(map.pixels[i]), out.pixels[i]);
   return out;
 }
 
@@ -594,6 +585,10 @@ template Image<glm::vec2> make_index_map(int, int);
 template Image<Unorm16Texel> make_index_map(int, int);
 template Image<Unorm8Texel> make_index_map(int, int);
 template Image<HalfTexel> make_index_map(int, int);
+template Image<glm::vec2> from_float(const IndexMap&);
+template Image<Unorm16Texel> from_float(const IndexMap&);
+template Image<Unorm8Texel> from_float(const IndexMap&);
+template Image<HalfTexel> from_float(const IndexMap&);
 template IndexMap float_from(const Image<glm::vec2>&);
 template IndexMap float_from(const Image<Unorm16Texel>&);
 template IndexMap float_from(const Image<Unorm8Texel>&);

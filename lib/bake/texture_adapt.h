@@ -30,6 +30,9 @@ Image<Texel> make_index_map(int width_px, int height_px);
 /// Exact.
 template <typename Texel>
 IndexMap float_from(const Image<Texel>& map);
+/// Rounded.
+template <typename Texel>
+Image<Texel> from_float(const IndexMap& map);
 
 struct AdaptOptions {
   int n_threads = 0;  ///< 0: all; the result does not depend on it
@@ -73,8 +76,5 @@ class TextureAdapter {
   class Engine;
   std::unique_ptr<Engine> engine_;
 };
-
-/// The texture as an index map shows it: an ordinary texture of the map's size.
-ImageRgba8 bake_texture(const IndexMap& map, const ImageRgba8& texture);
 
 }  // namespace viewcell

@@ -13,6 +13,11 @@ namespace viewcell {
 /// identity holds ((x + 0.5) / width, 1 - (y + 0.5) / height) at (x, y). Follows: [Chen06 3.2.4].
 using IndexMap = Image<glm::vec2>;
 
+/// What texel (x, y) of the identity holds [Chen06 3.2.4].
+inline glm::vec2 own_place(int x, int y, int width_px, int height_px) {
+  return {float((x + 0.5) / width_px), float(1 - (y + 0.5) / height_px)};
+}
+
 /// Writes a map, whole or not at all, by the file's ending:
 /// - .exr, and "-" (standard output): two channels of float, "texcoord.u" and "texcoord.v", zip;
 /// bit

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "bake/bake_texture.h"
 #include "mesh/closest_point.h"
 #include "pm/build.h"
 #include "pm/shapes.h"
@@ -196,10 +197,36 @@ TEST(BakeTexture, ShowsTheTextureThroughTheMap) {
     for (int x = 0; x < 64; ++x)
       texture.at(x, y) = {static_cast<std::uint8_t>(4 * x), static_cast<std::uint8_t>(4 * y), 7,
                           255};
-  EXPECT_EQ(bake_texture(make_index_map<glm::vec2>(64, 64), texture).pixels, texture.pixels);
+  const LevelCharts all{{{{{0, 0}, {2, 0}, {0, 2}}}}, {0}};
+  EXPECT_EQ(bake_texture(make_index_map<glm::vec2>(64, 64), texture, all, all).pixels,
+            texture.pixels);
   IndexMap map(2, 1, glm::vec2(0.5f, 0.5f));
-  const ImageRgba8 out = bake_texture(map, texture);
+  const ImageRgba8 out = bake_texture(map, texture, all, all);
   EXPECT_EQ(out.at(0, 0), (Rgba8{126, 126, 7, 255}));
+}
+
+// A chart that shrinks: nothing of the ground gets into what it covers, and what it has left takes
+// its colour; what it never covered stays.
+TEST(BakeTexture, KeepsTheGroundOut) {
+  const Rgba8 ground{255, 0, 255, 255}, skin{10, 200, 30, 255};
+  ImageRgba8 texture(32, 32, ground);
+  for (int y = 0; y < 32; ++y)
+    for (int x = 0; x < 16; ++x) texture.at(x, y) = skin;
+  const LevelCharts finest{{{{{0, 0}, {0.5f, 0}, {0.5f, 1}}}, {{{0, 0}, {0.5f, 1}, {0, 1}}}},
+                           {0, 0}};
+  const LevelCharts level{{{{{0, 0}, {0.25f, 0}, {0.25f, 1}}}, {{{0, 0}, {0.25f, 1}, {0, 1}}}},
+                          {0, 0}};
+  IndexMap map(32, 32);
+  for (int y = 0; y < 32; ++y)
+    for (int x = 0; x < 32; ++x) {
+      map.at(x, y) = own_place(x, y, 32, 32);
+      map.at(x, y).x = x < 8 ? 2 * map.at(x, y).x : 0.1f;  // stale beyond
+    }
+  const ImageRgba8 out = bake_texture(map, texture, finest, level);
+  for (int y = 0; y < 32; ++y) {
+    for (int x = 0; x < 16; ++x) ASSERT_EQ(out.at(x, y), skin) << x << ' ' << y;
+    for (int x = 20; x < 32; ++x) ASSERT_EQ(out.at(x, y), ground) << x << ' ' << y;
+  }
 }
 
 }  // namespace

@@ -7,7 +7,7 @@ start "$1"
 texadapt=$bin/texadapt
 
 ball 24 1 >ball.off
-expect 0 "$bin/uvpatch" ball.off --faces 900 -o patch.obj  # with a check-board
+expect 0 "$bin/uvpatch" ball.off --faces 900 --texture-size 512 -o patch.obj  # with a check-board
 expect 0 "$bin/pmesh" build patch.obj --metric mapping -o patch.pm
 expect 0 "$texadapt" --help
 grep -q "Example:" "$log/out" || fail "--help has no example"
@@ -18,35 +18,124 @@ for key in faces collapses adaptations texels refused timing; do
 done
 grep -Eq '"faces": (199|200),' report.json || fail "faces: $(cat report.json)"
 # Seen from the same places, the adapted texture is nearer to the original than the one as it was.
-shots() { expect 0 "$bin/meshshot" "$1" --texture "$2" --unlit --views 6 --size 128 --like patch.obj --no-sheet -q -o "$3"; }
+shots() { expect 0 "$bin/meshshot" "$1" --texture "$2" --unlit --views 4 --size 128 --like patch.obj --no-sheet -q -o "$3"; }
 shots patch.obj patch.png original
 shots coarse.ply patch.png plain
 shots coarse.ply adapted.png follows
 mean() { "$bin/psnr" original "$1" | awk '$1 == "mean" { print $3 }'; }
 awk -v with="$(mean follows)" -v without="$(mean plain)" 'BEGIN { exit !(with > without + 1) }' ||
   fail "PSNR with adaptation $(mean follows), without $(mean plain)"
-# The input's own level changes nothing; the same bytes every time.
+# The input's own level changes nothing; the same bytes every time, for any number of threads.
 expect 0 "$texadapt" patch.pm patch.png --faces 100000 -o same.png
 expect 0 "$bin/psnr" patch.png same.png
 grep -q "100.000     100.000" "$log/out" || fail "the finest level's texture differs: $(cat "$log/out")"
-expect 0 "$texadapt" patch.pm patch.png --faces 200 -o again.png -q
+expect 0 "$texadapt" patch.pm patch.png --faces 200 -o again.png -q -j1
 [ ! -s "$log/err" ] || fail "words on stderr with -q"
 cmp -s again.png adapted.png || fail "other bytes the second time"
+expect 0 "$texadapt" patch.pm patch.png --faces 200 -o again.png --no-pack
+cmp -s again.png adapted.png || fail "other bytes one by one"
 "$texadapt" patch.pm patch.png --faces 200 -q -o - | cmp -s - adapted.png || fail "-o -"
+
+# Several levels in one pass, coarser and finer again; each as if it were the only one.
+expect 0 "$texadapt" patch.pm patch.png --levels 400,200 -o l.png --index-map l.exr --json report.json
+cmp -s l-200.png adapted.png || fail "--levels: another picture than --faces"
+cmp -s l-200.ply coarse.ply || fail "--levels: another mesh than --mesh"
+[ -s l-400.exr ] && [ -s l-400.ply ] || fail "--levels: files are missing"
+expect 0 "$texadapt" patch.pm patch.png --levels 200,100000 -o up.png
+cmp -s up-100000.png same.png || fail "all the way back the texture is another"
+
+# The map is the texture, and drawing through it shows the same.
+expect 0 "$texadapt" patch.pm patch.png --faces 200 -o map.exr
+cmp -s map.exr l-200.exr || fail "-o map.exr is not --index-map"
+expect 0 "$bin/meshshot" coarse.ply --texture patch.png --index-map map.exr --unlit --views 4 --size 128 --like patch.obj --no-sheet -q -o through
+awk -v a="$(mean through)" -v b="$(mean follows)" 'BEGIN { exit !(a > b - 0.5) }' ||
+  fail "through the map $(mean through) dB, baked $(mean follows)"
+# From a map of one level on to another, by a log: what the tool does in one go.
+expect 0 "$texadapt" patch.pm patch.png --faces 400 -o m400.exr --log patch.adapt
+expect 0 "$texadapt" patch.pm patch.png --replay patch.adapt --from 400=m400.exr --faces 200 -o m200.png
+"$bin/psnr" adapted.png m200.png | awk '$1 == "mean" || NF > 2 { db = $2 } END { exit !(db > 50) }' ||
+  fail "--from 400 gives another texture of 200 faces: $("$bin/psnr" adapted.png m200.png)"
+expect 0 "$texadapt" patch.pm patch.png --replay patch.adapt --from 200=map.exr --faces 100000 -o back.png
+cmp -s back.png same.png || fail "--from 200 up to the finest level"
+
+# GLB: the mesh with its texture; further textures; coarse texels; the texture itself; rebaked.
+expect 0 "$texadapt" patch.pm patch.png --levels 200 --normal-map patch.png -o g.glb
+shots g-200.glb g-200.glb glb
+shots g-200.glb "g-200.glb#normal" normal
+for which in glb normal; do
+  awk -v a="$(mean $which)" -v b="$(mean follows)" 'BEGIN { exit !(a > b - 0.01 && a < b + 0.01) }' || fail "GLB: $which"
+done
+expect 0 "$texadapt" patch.pm patch.png --faces 200 --also patch.png=also.png --size 256x256 -o x256.png
+cmp -s also.png x256.png || fail "--also makes another texture of the same"
+for texels in half 16 8 texture; do
+  expect 0 "$texadapt" patch.pm patch.png --faces 200 --texels $texels -o $texels.png
+  shots coarse.ply $texels.png $texels
+done
+awk -v a="$(mean 16)" -v b="$(mean 8)" -v c="$(mean follows)" 'BEGIN { exit !(a > c - 0.3 && a > b) }' ||
+  fail "16 bits $(mean 16) dB, 8 bits $(mean 8), float $(mean follows)"
+expect 0 "$texadapt" patch.pm patch.png --faces 200 --engine rebake -o rebaked.png
+shots coarse.ply rebaked.png rebaked
+awk -v a="$(mean rebaked)" -v b="$(mean follows)" 'BEGIN { exit !(a < b + 1.5) }' || fail "rebaked $(mean rebaked) dB"
+# Full-edge collapses.
+expect 0 "$bin/pmesh" build patch.obj --metric mapping --placement full -o full.pm
+expect 0 "$texadapt" full.pm patch.png --faces 200 -o full.png --mesh full.obj
+shots full.obj patch.png full-plain
+shots full.obj full.png full-follows
+awk -v with="$(mean full-follows)" -v without="$(mean full-plain)" 'BEGIN { exit !(with > without + 1) }' ||
+  fail "full-edge: PSNR with adaptation $(mean full-follows), without $(mean full-plain)"
+expect 0 "$bin/pmesh" build patch.obj --stop-at 300 -o stopped.pm
+expect 5 "$texadapt" stopped.pm patch.png --levels 400,60 -o base.png
+[ -s base-60.png ] || fail "the base is not written"
 
 # Bad input: one line, nothing written.
 expect 0 "$bin/pmesh" build ball.off -o bare.pm
 fault 1 "has no texture coordinates" "$texadapt" bare.pm patch.png --faces 60 -o x.png
-expect 0 "$bin/pmesh" build patch.obj --metric lt -o full.pm
-fault 1 "full-edge" "$texadapt" full.pm patch.png --faces 60 -o x.png
 sed 's/^vt \([0-9]\)/vt 1\1/' patch.obj >wide.obj
 expect 0 "$bin/pmesh" build wide.obj -o wide.pm
-fault 1 "outside [0, 1]" "$texadapt" wide.pm patch.png --faces 60 -o x.png
+fault 1 "wide.pm" "$texadapt" wide.pm patch.png --faces 60 -o x.png
+cat >over.obj <<'EOF'
+v 0 0 0
+v 1 0 0
+v 1 1 0
+v 0 1 0
+v 0 0 5
+v 1 0 5
+v 1 1 5
+vt 0 0
+vt 1 0
+vt 1 1
+vt 0 1
+f 1/1 2/2 3/3
+f 1/1 3/3 4/4
+f 5/1 6/2 7/3
+EOF
+expect 0 "$bin/pmesh" build over.obj -o over.pm
+fault 1 "lie over one another" "$texadapt" over.pm patch.png --faces 2 -o x.png
+expect 0 "$texadapt" over.pm patch.png --faces 2 --allow-overlap -o over.png
+fault 1 "another progressive mesh" "$texadapt" full.pm patch.png --replay patch.adapt --faces 60 -o x.png
+for bytes in 10 300 5000; do
+  head -c "$bytes" patch.adapt >cut.adapt
+  fault 1 "cut.adapt" "$texadapt" patch.pm patch.png --replay cut.adapt --faces 60 -o x.png
+done
+fault 1 "patch.png" "$texadapt" patch.pm patch.png --replay patch.png --faces 60 -o x.png
 fault 1 "gone.png" "$texadapt" patch.pm gone.png --faces 60 -o x.png
+fault 1 "gone.png" "$texadapt" patch.pm patch.png --also gone.png=y.png --faces 60 -o x.png
+fault 2 "size" "$texadapt" patch.pm patch.png --from 400=m400.exr --size 64x64 --faces 60 -o x.png
 fault 2 "faces" "$texadapt" patch.pm patch.png --faces 0 -o x.png
 fault 2 "faces" "$texadapt" patch.pm patch.png -o x.png
+fault 2 "levels" "$texadapt" patch.pm patch.png --levels 3,,4 -o x.png
+fault 2 "twice" "$texadapt" patch.pm patch.png --levels 30,30 -o x.png
+fault 2 "also" "$texadapt" patch.pm patch.png --also patch.png --faces 60 -o x.png
+fault 2 "size" "$texadapt" patch.pm patch.png --size 0x5 --faces 60 -o x.png
+fault 2 "from" "$texadapt" patch.pm patch.png --from m400.exr --faces 60 -o x.png
 fault 2 "-o" "$texadapt" patch.pm patch.png --faces 60 -o patch.png
 fault 2 "-o" "$texadapt" patch.pm patch.png --faces 60 -o x.jpg
+fault 2 "mesh" "$texadapt" patch.pm patch.png --faces 60 -o x.glb --mesh y.ply
+fault 2 "indexing map" "$texadapt" patch.pm patch.png --texels texture --index-map x.exr --faces 60 -o x.png
+fault 2 "rebake" "$texadapt" patch.pm patch.png --engine rebake --log x.adapt --faces 60 -o x.png
+fault 2 "normal-map" "$texadapt" patch.pm patch.png --normal-map patch.png --faces 60 -o x.png
 head -c 500 patch.pm >cut.pm
 fault 1 "cut.pm" "$texadapt" cut.pm patch.png --faces 60 -o x.png
+[ ! -e x.png ] && [ ! -e x.exr ] && [ ! -e x.glb ] || fail "a fault has left a file"
+[ "$n_faults" -eq 25 ] || fail "$n_faults faults were tried"
 echo "texadapt.sh: $n_faults faults"

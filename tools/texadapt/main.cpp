@@ -1,14 +1,17 @@
-// texadapt: a texture that has followed the collapses of a progressive mesh, for a level of it.
+// texadapt: a texture that follows the collapses of a progressive mesh, for levels of it.
 #include <cstdio>
 
-#include "bake/texture_adapt.h"
+#include "arguments.h"
+#include "bake/chart_checks.h"
+#include "bake/rebake.h"
 #include "base/error.h"
-#include "common/files.h"
 #include "common/provenance.h"
 #include "common/stopwatch.h"
-#include "common/tool.h"
 #include "image/io.h"
 #include "mesh/io.h"
+#include "mesh/texture_file.h"
+#include "mesh/write_glb.h"
+#include "pm/adapt_file.h"
 #include "pm/pm_file.h"
 
 namespace viewcell {
@@ -16,77 +19,163 @@ namespace {
 
 constexpr int kOverThreshold = 5;
 
-struct Arguments {
-  std::string pm, texture, mesh;
-  std::size_t n_faces = 0;
+struct Inputs {
+  ProgressiveRecord record;
+  TriMesh finest;
+  ImageRgba8 texture, normal_map;
+  std::vector<ImageRgba8> further;
+  std::string charts;  // lines about them
 };
 
-void declare(Tool& tool, Arguments& a) {
-  CLI::App& app = tool.app();
-  app.add_option("PM", a.pm, "progressive mesh of half-edge collapses, with texture coordinates")
-      ->required();
-  app.add_option("TEXTURE", a.texture, "its texture; row 0 is v = 1")->required();
-  app.add_option("--faces", a.n_faces, "the finest level of at most so many faces")
-      ->required()
-      ->check(CLI::Range(1, 2000000000));
-  app.add_option("--mesh", a.mesh, "write the mesh of that level, too: .ply");
-  tool.add_output("the texture for that level: .png (-: standard output)");
-}
-
-void check_record(const ProgressiveRecord& record, const std::string& file) {
-  if (record.texcoords.empty())
-    throw InputError(file, "", "has no texture coordinates, so no texture can follow it");
-  for (const glm::vec2& uv : record.texcoords)
-    if (!(uv.x >= 0 && uv.x <= 1 && uv.y >= 0 && uv.y <= 1))
-      throw InputError(file, "",
-                       "has texture coordinates outside [0, 1]: a texture that repeats cannot "
-                       "follow a mesh");
-}
-
-int run(const Tool& tool, const Arguments& a) {
-  const CommonOptions& common = tool.common();
-  check_files(
-      {{"the progressive mesh that is read", a.pm}, {"the texture that is read", a.texture}},
-      {{"-o", common.output}, {"--mesh", a.mesh}, {"--json", common.json_file}});
-  check_ending({"-o", common.output}, {".png"}, "a PNG");
-  if (!a.mesh.empty()) check_ending({"--mesh", a.mesh}, {".ply"}, "a PLY");
-  const ProgressiveRecord record = read_pm(a.pm);
-  check_record(record, a.pm);
-  const ImageRgba8 texture = read_image_rgba8(a.texture);
-  Stopwatch watch;
-  const AdaptationLog log = make_adaptation_log(record, tool.progress("collapses"));
-  const double log_s = watch.lap_s();
-  ProgressiveMesh mesh(record);
+Inputs read_inputs(TexadaptArguments& a) {
+  Inputs in;
+  in.record = read_pm(a.pm);
+  if (in.record.texcoords.empty())
+    throw InputError(a.pm, "", "has no texture coordinates, so no texture can follow it");
+  in.texture = read_texture(a.texture);
+  for (const FurtherTexture& f : a.further) in.further.push_back(read_texture(f.from));
+  if (!a.normal_map.empty()) in.normal_map = read_texture(a.normal_map);
+  if (!a.start.empty()) a.options.start = read_index_map(a.start);
+  AdaptLevelsOptions& o = a.options;
+  if (o.width_px == 0) o.width_px = o.start ? o.start->width_px : in.texture.width_px;
+  if (o.height_px == 0) o.height_px = o.start ? o.start->height_px : in.texture.height_px;
+  ProgressiveMesh mesh(in.record);
   mesh.set_level(mesh.n_splits());
-  const LevelCharts charts = make_level_charts(mesh, log);
-  mesh.set_faces(a.n_faces);
-  const std::size_t n = mesh.n_splits() - mesh.level();
-  watch.lap_s();
-  TextureAdapter<glm::vec2> adapter(log,
-                                    make_index_map<glm::vec2>(texture.width_px, texture.height_px),
-                                    charts, 0, {.n_threads = common.n_threads});
-  adapter.go_to(n);
-  const IndexMap map = adapter.image();
-  const double adapt_s = watch.lap_s();
-  const ImageRgba8 baked = bake_texture(map, texture);
-  if (!a.mesh.empty())
-    write_ply(a.mesh, mesh.extract(), {std::string("made by texadapt ") + version()});
-  write_png(tool.common().output, baked);
-  const std::size_t n_faces = mesh.n_faces();
-  tool.say(std::to_string(n_faces) + " faces, " + std::to_string(adapter.counts().n_adaptations) +
-           " adaptations; of the whole mesh's " + std::to_string(log.n_collapses()) +
-           " collapses " + std::to_string(log.n_folded) + " fold and adapt nothing");
-  tool.report({{"faces", n_faces},
-               {"collapses", n},
-               {"adaptations", adapter.counts().n_adaptations},
-               {"packs", adapter.counts().n_packs},
-               {"texels", adapter.counts().n_texels},
-               {"refused", {{"fold", log.n_folded}, {"unmapped", log.n_unmapped}}},
-               {"timing", {{"log_s", log_s}, {"adapt_s", adapt_s}}}});
-  if (n_faces <= a.n_faces) return 0;
-  std::fprintf(stderr, "texadapt: %s: %zu faces were asked for, its base has %zu\n", a.pm.c_str(),
-               a.n_faces, n_faces);
-  return kOverThreshold;
+  in.finest = mesh.extract();
+  const ChartFindings findings = check_charts(in.finest, o.width_px, o.height_px);
+  if (const std::string obstacle = find_obstacle(findings, a.allows_overlap); !obstacle.empty())
+    throw InputError(a.pm, "", obstacle);
+  in.charts = describe(findings);
+  return in;
+}
+
+AdaptationLog get_log(const Tool& tool, const TexadaptArguments& a,
+                      const ProgressiveRecord& record) {
+  if (!a.replay.empty()) return read_adapt(a.replay, record);
+  AdaptationLog log = make_adaptation_log(record, tool.progress("collapses"));
+  if (!a.log.empty()) write_adapt(a.log, log, record);
+  return log;
+}
+
+// The textures of a level, its mesh, and where they go.
+class LevelWriter {
+ public:
+  LevelWriter(const Tool& tool, const TexadaptArguments& a, const Inputs& in)
+      : tool_(tool), a_(a), in_(in) {}
+
+  /// bake(texture) makes what the level shows of a texture; map: null where there is none.
+  template <typename Bake>
+  void write(std::size_t level, const TriMesh& mesh, const IndexMap* map, Bake&& bake) const {
+    const std::string output = a_.name_at(tool_.common().output, level);
+    const std::vector<std::string> comments{std::string("made by texadapt ") + version()};
+    if (a_.format == TextureFormat::map)
+      write_index_map(output, *map);
+    else if (a_.format == TextureFormat::png)
+      write_png(output, bake(in_.texture));
+    else
+      write_glb(output, mesh,
+                {encode_png(bake(in_.texture)),
+                 in_.normal_map.empty() ? "" : encode_png(bake(in_.normal_map)), comments[0]});
+    if (const std::string file = a_.name_at(a_.mesh, level); file.ends_with(".obj"))
+      write_obj(file, mesh, {comments, "", ""});
+    else if (!file.empty())
+      write_ply(file, mesh, comments);
+    if (!a_.index_map.empty()) write_index_map(a_.name_at(a_.index_map, level), *map);
+    for (std::size_t i = 0; i < in_.further.size(); ++i)
+      write_png(a_.name_at(a_.further[i].to, level), bake(in_.further[i]));
+  }
+
+ private:
+  const Tool& tool_;
+  const TexadaptArguments& a_;
+  const Inputs& in_;
+};
+
+Json adapt(const Tool& tool, const TexadaptArguments& a, const Inputs& in) {
+  const LevelWriter writer(tool, a, in);
+  Stopwatch watch;
+  const AdaptationLog log = get_log(tool, a, in.record);
+  const double log_s = watch.lap_s();
+  AdaptLevels levels(in.record, log, in.texture, a.options);
+  Json rows = Json::array();
+  const bool has_map = a.options.texel != TexelKind::texture;
+  double adapt_s = 0;
+  for (const std::size_t level : a.levels) {
+    const AdaptCounts before = levels.counts();
+    watch.lap_s();
+    levels.set_faces(level);
+    const double level_s = watch.lap_s();
+    adapt_s += level_s;
+    const IndexMap map = has_map ? levels.map() : IndexMap();
+    writer.write(
+        level, levels.mesh().extract(), has_map ? &map : nullptr,
+        [&](const ImageRgba8& texture) { return has_map ? levels.bake(texture) : levels.bake(); });
+    const AdaptCounts& now = levels.counts();
+    rows.push_back({{"faces", levels.mesh().n_faces()},
+                    {"collapses", levels.n_collapsed()},
+                    {"adaptations", now.n_adaptations - before.n_adaptations},
+                    {"packs", now.n_packs - before.n_packs},
+                    {"texels", now.n_texels - before.n_texels},
+                    {"adapt_s", level_s}});
+    tool.say(std::to_string(levels.mesh().n_faces()) +
+             " faces: " + std::to_string(now.n_adaptations - before.n_adaptations) +
+             " adaptations in " + std::to_string(now.n_packs - before.n_packs) + " packs");
+  }
+  if (log.n_folded + log.n_unmapped > 0)
+    tool.say(std::to_string(log.n_folded + log.n_unmapped) + " of " +
+             std::to_string(log.n_steps()) + " steps turn over in the texture and adapt nothing");
+  const AdaptCounts& all = levels.counts();
+  return {{"faces", rows.back()["faces"]},
+          {"collapses", rows.back()["collapses"]},
+          {"adaptations", all.n_adaptations},
+          {"packs", all.n_packs},
+          {"texels", all.n_texels},
+          {"overgrown_texels", all.n_conflicts},
+          {"charts", log.n_charts},
+          {"refused", {{"fold", log.n_folded}, {"unmapped", log.n_unmapped}}},
+          {"moved_edges", log.n_moved},
+          {"levels", rows},
+          {"timing", {{"log_s", log_s}, {"adapt_s", adapt_s}}}};
+}
+
+Json rebake(const Tool& tool, const TexadaptArguments& a, const Inputs& in) {
+  const LevelWriter writer(tool, a, in);
+  ProgressiveMesh mesh(in.record);
+  mesh.set_level(mesh.n_splits());
+  Json rows = Json::array();
+  Stopwatch watch;
+  double bake_s = 0;
+  for (const std::size_t level : a.levels) {
+    mesh.set_faces(level);
+    const TriMesh coarse = mesh.extract();
+    watch.lap_s();
+    writer.write(level, coarse, nullptr, [&](const ImageRgba8& texture) {
+      return rebake_texture(coarse, in.finest, texture,
+                            {.width_px = a.options.width_px,
+                             .height_px = a.options.height_px,
+                             .n_threads = tool.common().n_threads,
+                             .progress = tool.progress("rows")});
+    });
+    bake_s += watch.lap_s();
+    rows.push_back({{"faces", mesh.n_faces()}});
+  }
+  return {{"faces", rows.back()["faces"]}, {"levels", rows}, {"timing", {{"bake_s", bake_s}}}};
+}
+
+int run(const Tool& tool, TexadaptArguments& a) {
+  finish_arguments(tool, a);
+  const Inputs in = read_inputs(a);
+  const Json report = a.engine == AdaptEngine::rebake ? rebake(tool, a, in) : adapt(tool, a, in);
+  tool.say(in.charts);
+  tool.report(report);
+  for (std::size_t i = 0; i < a.levels.size(); ++i) {
+    const auto n = report["levels"][i]["faces"].get<std::size_t>();
+    if (n <= a.levels[i]) continue;
+    std::fprintf(stderr, "texadapt: %s: %zu faces were asked for, its base has %zu\n", a.pm.c_str(),
+                 a.levels[i], n);
+    return kOverThreshold;
+  }
+  return 0;
 }
 
 }  // namespace
@@ -95,11 +184,12 @@ int run(const Tool& tool, const Arguments& a) {
 int main(int argc, char** argv) {
   viewcell::Tool tool(
       "texadapt",
-      "Adapts a texture to a level of a progressive mesh: what the texture shows "
-      "stays where it was on the surface, while the mesh gets coarser.",
+      "Makes a texture follow a progressive mesh: what it shows stays where it was on the surface, "
+      "while the mesh gets coarser or finer.",
       "pmesh build head.obj --metric mapping -o head.pm\n"
-      "  texadapt head.pm skin.png --faces 500 -o skin-500.png --mesh head-500.ply");
-  viewcell::Arguments arguments;
-  viewcell::declare(tool, arguments);
+      "  texadapt head.pm skin.png --faces 500 -o skin-500.png --mesh head-500.ply\n"
+      "  texadapt head.pm skin.png --levels 8000,2000,500 -o head.glb");
+  viewcell::TexadaptArguments arguments;
+  viewcell::declare_arguments(tool, arguments);
   return tool.main(argc, argv, [&] { return viewcell::run(tool, arguments); });
 }

@@ -1,0 +1,217 @@
+#include "arguments.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "base/error.h"
+#include "common/files.h"
+#include "mesh/texture_file.h"
+
+namespace viewcell {
+namespace {
+
+constexpr std::uint64_t kMostFaces = 2000000000;
+constexpr std::uint64_t kMostSide = 32768;
+
+void declare_levels(CLI::App& app, TexadaptArguments& a) {
+  app.add_option("--faces", a.faces, "the finest level of at most so many faces")
+      ->check(whole_within(1, kMostFaces));
+  app.add_option("--levels", a.level_list,
+                 "N,N,..: several, one after another in this order, finer ones again after coarser "
+                 "ones too; N is put into the files' names, and each level's mesh is written "
+                 "beside its texture (as .ply, unless --mesh or --format glb)")
+      ->excludes("--faces");
+  app.add_option("--from", a.start_text,
+                 "N=MAP: start from this indexing map (.exr, .tif) of the level of N faces, not "
+                 "from the finest level");
+  app.add_option("--log", a.log, "write the adaptations to this file: .adapt");
+  app.add_option("--replay", a.replay, "take the adaptations from such a file")->excludes("--log");
+}
+
+void declare_outputs(CLI::App& app, TexadaptArguments& a) {
+  app.add_option("--mesh", a.mesh, "write the level's mesh: .ply or .obj");
+  app.add_option("--index-map", a.index_map,
+                 "write the indexing map, too: .exr (float) or .tif (16 bits)");
+  app.add_option("--also", a.further_texts,
+                 "IMAGE=OUT.png: a further texture with the same coordinates, through the same "
+                 "indexing map; may be repeated");
+  app.add_option("--normal-map", a.normal_map,
+                 "a normal map that goes the same way, for --format glb");
+  app.add_option("--format", a.format_name, "png | glb, with the mesh (default: as -o ends)")
+      ->check(CLI::IsMember({"png", "glb"}));
+  app.add_flag("--bake", a.bake,
+               "resolve the indexing map into an ordinary texture: what a .png "
+               "and a .glb always have");
+}
+
+void declare_engine(CLI::App& app, TexadaptArguments& a) {
+  app.add_option("--engine", a.engine_name,
+                 "cpu | rebake (no adaptation: a new texture from the nearest points of the "
+                 "finest mesh, to compare with)")
+      ->check(CLI::IsMember({"cpu", "rebake"}))
+      ->capture_default_str();
+  app.add_option("--texels", a.texel_name,
+                 "of the indexing map: float | half | 16 | 8 bits; or texture: adapt the texture "
+                 "itself, which blurs")
+      ->check(CLI::IsMember({"float", "half", "16", "8", "texture"}))
+      ->capture_default_str();
+  app.add_option("--size", a.size, "WxH: of the indexing map (default: the texture's)");
+  app.add_flag("--no-pack", a.one_by_one, "one adaptation after another, on one thread");
+  app.add_flag("--allow-overlap", a.allows_overlap,
+               "go on where two charts lie on the same texels; these follow one of them");
+}
+
+std::vector<std::size_t> parse_levels(const std::string& list) {
+  std::vector<std::size_t> out;
+  for (std::size_t at = 0; at <= list.size();) {
+    const std::size_t comma = std::min(list.find(',', at), list.size());
+    std::size_t n = 0;
+    if (!parse_whole(list.substr(at, comma - at), 1, kMostFaces, n))
+      throw UsageError("--levels: '" + list + "' is not N,N,.. with numbers of faces from 1 on");
+    if (std::find(out.begin(), out.end(), n) != out.end())
+      throw UsageError("--levels: " + std::to_string(n) + " is there twice, but its files once");
+    out.push_back(n);
+    at = comma + 1;
+  }
+  return out;
+}
+
+void parse_size(const std::string& text, AdaptLevelsOptions& options) {
+  const std::size_t x = text.find('x');
+  std::size_t width = 0, height = 0;
+  if (x == std::string::npos || !parse_whole(text.substr(0, x), 1, kMostSide, width) ||
+      !parse_whole(text.substr(x + 1), 1, kMostSide, height))
+    throw UsageError("--size: '" + text + "' is not WIDTHxHEIGHT, each 1 to " +
+                     std::to_string(kMostSide));
+  options.width_px = static_cast<int>(width), options.height_px = static_cast<int>(height);
+}
+
+// "LEFT=RIGHT", both with something.
+std::pair<std::string, std::string> split_pair(const std::string& option, const std::string& text) {
+  const std::size_t at = text.find('=');
+  if (at == std::string::npos || at == 0 || at + 1 == text.size())
+    throw UsageError(option + ": '" + text + "' has no = between two words");
+  return {text.substr(0, at), text.substr(at + 1)};
+}
+
+void parse_pairs(TexadaptArguments& a) {
+  for (const std::string& text : a.further_texts) {
+    const auto [from, to] = split_pair("--also", text);
+    a.further.push_back({from, to});
+  }
+  if (a.start_text.empty()) return;
+  const auto [faces, map] = split_pair("--from", a.start_text);
+  if (!parse_whole(faces, 1, kMostFaces, a.options.start_faces))
+    throw UsageError("--from: '" + faces + "' is no number of faces");
+  a.start = map;
+}
+
+std::string ending_of(const std::string& file) {
+  std::string out = std::filesystem::path(file).extension().string();
+  std::transform(out.begin(), out.end(), out.begin(),
+                 [](unsigned char c) { return std::tolower(c); });
+  return out;
+}
+
+void choose_format(const std::string& output, TexadaptArguments& a) {
+  const std::string ending = ending_of(output);
+  const bool is_map = ending == ".exr" || ending == ".tif" || ending == ".tiff";
+  if (a.format_name == "glb" || (a.format_name.empty() && ending == ".glb"))
+    a.format = TextureFormat::glb;
+  else if (a.format_name.empty() && is_map && !a.bake)
+    a.format = TextureFormat::map;
+  if (a.format == TextureFormat::png) check_ending({"-o", output}, {".png"}, "a PNG");
+  if (a.format == TextureFormat::glb) check_ending({"-o", output}, {".glb"}, "a GLB");
+}
+
+void check_combinations(const TexadaptArguments& a) {
+  const bool has_map = a.engine == AdaptEngine::cpu && a.options.texel != TexelKind::texture;
+  if (!has_map && (!a.index_map.empty() || a.format == TextureFormat::map || !a.start.empty()))
+    throw UsageError(a.engine == AdaptEngine::rebake
+                         ? "--engine rebake has no indexing map"
+                         : "--texels texture adapts the texture and has no indexing map");
+  if (!has_map && (!a.further.empty() || !a.normal_map.empty()) && a.engine != AdaptEngine::rebake)
+    throw UsageError("--texels texture adapts one texture; --also and --normal-map want a map");
+  if (a.engine == AdaptEngine::rebake && (!a.log.empty() || !a.replay.empty()))
+    throw UsageError("--engine rebake knows no adaptations: no --log, no --replay");
+  if (!a.normal_map.empty() && a.format != TextureFormat::glb)
+    throw UsageError("--normal-map is for --format glb; elsewhere: --also NORMAL.png=OUT.png");
+  if (a.options.texel == TexelKind::texture && !a.size.empty())
+    throw UsageError("--size is of an indexing map; --texels texture has none");
+  if (a.format == TextureFormat::glb && !a.mesh.empty())
+    throw UsageError("--format glb holds the mesh: no --mesh");
+}
+
+void check_all_files(const Tool& tool, const TexadaptArguments& a) {
+  const CommonOptions& common = tool.common();
+  std::vector<NamedFile> inputs{
+      {"the progressive mesh that is read", a.pm},
+      {"the texture that is read", texture_file(a.texture).string()},
+      {"the normal map that is read", texture_file(a.normal_map).string()},
+      {"the log that is read", a.replay},
+      {"the map that is read", a.start}};
+  std::vector<NamedFile> outputs{{"--log", a.log}, {"--json", common.json_file}};
+  for (const FurtherTexture& f : a.further)
+    inputs.push_back({"a texture that is read", texture_file(f.from).string()});
+  for (const std::size_t level : a.levels) {
+    outputs.push_back({"-o", a.name_at(common.output, level)});
+    outputs.push_back({"--mesh", a.name_at(a.mesh, level)});
+    outputs.push_back({"--index-map", a.name_at(a.index_map, level)});
+    for (const FurtherTexture& f : a.further) outputs.push_back({"--also", a.name_at(f.to, level)});
+  }
+  check_files(inputs, outputs);
+  if (!a.mesh.empty()) check_ending({"--mesh", a.mesh}, {".ply", ".obj"}, "a mesh");
+  if (!a.index_map.empty())
+    check_ending({"--index-map", a.index_map}, {".exr", ".tif", ".tiff"}, "an indexing map");
+  if (!a.log.empty()) check_ending({"--log", a.log}, {".adapt"}, "a log of adaptations");
+  for (const FurtherTexture& f : a.further) check_ending({"--also", f.to}, {".png"}, "a PNG");
+}
+
+}  // namespace
+
+std::string TexadaptArguments::name_at(const std::string& file, std::size_t level) const {
+  if (file.empty() || !names_levels || file == "-") return file;
+  const std::filesystem::path path(file);
+  return (path.parent_path() /
+          (path.stem().string() + "-" + std::to_string(level) + path.extension().string()))
+      .string();
+}
+
+void declare_arguments(Tool& tool, TexadaptArguments& a) {
+  CLI::App& app = tool.app();
+  app.add_option("PM", a.pm, "progressive mesh with texture coordinates (pmesh build)")->required();
+  app.add_option("TEXTURE", a.texture,
+                 "its texture; row 0 is v = 1. A picture, or a GLB's (model.glb, model.glb#normal)")
+      ->required();
+  declare_levels(app, a);
+  declare_outputs(app, a);
+  declare_engine(app, a);
+  tool.add_output(
+      "the texture for that level: .png; with its mesh: .glb; as an indexing map: .exr "
+      "or .tif (-: a PNG to standard output)");
+}
+
+void finish_arguments(const Tool& tool, TexadaptArguments& a) {
+  if (a.faces)
+    a.levels = {*a.faces};
+  else if (!a.level_list.empty())
+    a.levels = parse_levels(a.level_list), a.names_levels = true;
+  else
+    throw UsageError("--faces N or --levels N,N,.. says which level");
+  if (a.engine_name == "rebake") a.engine = AdaptEngine::rebake;
+  a.options.texel = parse_texel_kind(a.texel_name);
+  a.options.adapt.n_threads = tool.common().n_threads;
+  a.options.adapt.pack = !a.one_by_one;
+  if (!a.size.empty()) parse_size(a.size, a.options);
+  parse_pairs(a);
+  choose_format(tool.common().output, a);
+  check_combinations(a);
+  if (a.names_levels && tool.common().output == "-" && a.levels.size() > 1)
+    throw UsageError("-o - takes one level");
+  if (a.names_levels && a.mesh.empty() && a.format == TextureFormat::png &&
+      tool.common().output != "-")
+    a.mesh = std::filesystem::path(tool.common().output).replace_extension(".ply").string();
+  check_all_files(tool, a);
+}
+
+}  // namespace viewcell

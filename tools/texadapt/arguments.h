@@ -1,0 +1,47 @@
+// What is typed at texadapt.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bake/adapt_levels.h"
+#include "common/tool.h"
+
+namespace viewcell {
+
+enum class AdaptEngine { cpu, rebake };
+enum class TextureFormat { png, glb, map };
+
+/// A further texture, and where its like for a level goes.
+struct FurtherTexture {
+  std::string from, to;
+};
+
+struct TexadaptArguments {
+  std::string pm, texture;
+  std::vector<std::size_t> levels;  ///< faces
+  bool names_levels = false;        ///< files have the level's faces in their names
+  std::string mesh, index_map, normal_map, log, replay, start;
+  std::vector<FurtherTexture> further;
+  AdaptEngine engine = AdaptEngine::cpu;
+  TextureFormat format = TextureFormat::png;
+  AdaptLevelsOptions options;
+  bool allows_overlap = false;
+
+  /// The name of an output at a level: with --levels "head.png" becomes "head-500.png".
+  std::string name_at(const std::string& file, std::size_t level) const;
+
+  // As typed; finish_arguments() makes the above of it.
+  std::optional<std::size_t> faces;
+  std::string level_list, engine_name = "cpu", format_name, texel_name = "float", size, start_text;
+  std::vector<std::string> further_texts;
+  bool bake = false, one_by_one = false;
+};
+
+void declare_arguments(Tool& tool, TexadaptArguments& arguments);
+
+/// Throws UsageError for what does not fit together, files included.
+void finish_arguments(const Tool& tool, TexadaptArguments& arguments);
+
+}  // namespace viewcell
