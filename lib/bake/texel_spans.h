@@ -40,15 +40,31 @@ void for_each_span(const TexelTriangleOf<Real>& triangle, int width_px, int heig
   };
   const int top = whole(a.y, height_px), bottom = whole(c.y, height_px);
   const int middle = std::max(whole(b.y, height_px), top);
-  // Edges are walked from their upper ends, so both triangles at one compute the same.
+  // Edges are walked from their upper ends, so both triangles at one compute the same. Four rows at
+  // once: x and y of the long edge (ac) and of the short ones (ab, then bc).
+  typedef Real Real4 __attribute__((vector_size(4 * sizeof(Real))));
+  typedef std::int32_t Int4 __attribute__((vector_size(16)));
   const Real along_ac = (c.x - a.x) / (c.y - a.y);
-  Vec2 from = a;
-  Real along = (b.x - a.x) / (b.y - a.y);  // not used where it has no row
-  for (int y = top; y < bottom; ++y) {
-    if (y == middle) from = b, along = (c.x - b.x) / (c.y - b.y);
-    const Real p = a.x + (Real(y) - a.y) * along_ac, q = from.x + (Real(y) - from.y) * along;
-    const int x0 = whole(std::min(p, q), width_px), x1 = whole(std::max(p, q), width_px);
-    if (x0 < x1) visit(x0, x1, y);
+  const Real along_ab = (b.x - a.x) / (b.y - a.y);  // not used where it has no row
+  const Real along_bc = (c.x - b.x) / (c.y - b.y);
+  const Real4 zero{}, width = zero + Real(width_px);
+  const auto whole4 = [&](Real4 x) {  // rounded up, within the image
+    x = x > zero ? x : zero;
+    x = x < width ? x : width;
+    const Int4 down = __builtin_convertvector(x, Int4);
+    const Real4 back = __builtin_convertvector(down, Real4);
+    return down - __builtin_convertvector(x > back, Int4);
+  };
+  for (int first = top; first < bottom; first += 4) {
+    const Real4 y = Real(first) + Real4{0, 1, 2, 3};
+    const auto is_upper = y < zero + Real(middle);
+    const Real4 from_x = is_upper ? zero + a.x : zero + b.x;
+    const Real4 from_y = is_upper ? zero + a.y : zero + b.y;
+    const Real4 along = is_upper ? zero + along_ab : zero + along_bc;
+    const Real4 p = a.x + (y - a.y) * along_ac, q = from_x + (y - from_y) * along;
+    const Int4 left = whole4(p < q ? p : q), right = whole4(p < q ? q : p);
+    for (int k = 0; k < 4 && first + k < bottom; ++k)
+      if (left[k] < right[k]) visit(left[k], right[k], first + k);
   }
 }
 

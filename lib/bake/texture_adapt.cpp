@@ -90,9 +90,9 @@ Float4 clamp(Float4 v, Float4 lo, Float4 hi) {
 template <typename Texel>
 struct View {
   const Texel* pixels;
-  int width_px, height_px;
+  int width_px, height_px, pitch_px;
   std::size_t offset(int x, int y) const {
-    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_px) +
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(pitch_px) +
            static_cast<std::size_t>(x);
   }
 };
@@ -101,7 +101,7 @@ template <typename Texel>
 Float4 sample(const View<Texel>& image, const glm::vec2& at) {
   const Footprint f(at, image.width_px, image.height_px);
   const Texel* texel = image.pixels + image.offset(f.x, f.y);
-  const Texel* below = texel + f.dy * image.width_px;
+  const Texel* below = texel + f.dy * image.pitch_px;
   const Float4 a = load(texel[0]), b = load(texel[f.dx]), c = load(below[0]), d = load(below[f.dx]);
   const Float4 top = a + f.s * (b - a), bottom = c + f.s * (d - c);
   return top + f.t * (bottom - top);
@@ -126,7 +126,7 @@ void sample_line(const View<Texel>& image, const Line& line, int n, Texel* out) 
   // Up to the last texel but one, so that there is always a next.
   const float right = before_last(image.width_px), bottom = before_last(image.height_px);
   const auto* pixels = reinterpret_cast<const float*>(image.pixels);
-  const std::size_t row = 2 * static_cast<std::size_t>(image.width_px);
+  const std::size_t row = 2 * static_cast<std::size_t>(image.pitch_px);
   const Float4 zero{}, count{0, 1, 2, 3};
   for (int k = 0; k < n; k += 4) {
     const Float4 at = float(k) + count;
@@ -135,7 +135,7 @@ void sample_line(const View<Texel>& image, const Line& line, int n, Texel* out) 
     const Int4 ix = __builtin_convertvector(x, Int4), iy = __builtin_convertvector(y, Int4);
     const Float4 s = x - __builtin_convertvector(ix, Float4);
     const Float4 t = y - __builtin_convertvector(iy, Float4);
-    const Int4 place = 2 * (iy * image.width_px + ix);
+    const Int4 place = 2 * (iy * image.pitch_px + ix);
     const auto mixed_rows = [&](int j) __attribute__((always_inline)) {
       const float* texel = pixels + static_cast<std::uint32_t>(place[j]);
       Float4 a, b;
@@ -143,13 +143,26 @@ void sample_line(const View<Texel>& image, const Line& line, int n, Texel* out) 
       __builtin_memcpy(&b, texel + row, sizeof b);
       return a + t[j] * (b - a);
     };
-    for (int j = 0; j < 4; j += 2) {
+    for (int j = 0; j < 4 && k + j < n; j += 2) {
       const Float4 a = mixed_rows(j), b = mixed_rows(j + 1);
       const Float4 left = __builtin_shufflevector(a, b, 0, 1, 4, 5);
       const Float4 next = __builtin_shufflevector(a, b, 2, 3, 6, 7);
       const Float4 mixed = left + Float4{s[j], s[j], s[j + 1], s[j + 1]} * (next - left);
       __builtin_memcpy(out + k + j, &mixed, sizeof mixed);
     }
+  }
+}
+
+// Spans are short: a call, or what a compiler makes of a loop for long ones, costs more.
+template <typename Texel>
+void copy_texels(const Texel* from, int n, Texel* to) {
+  if (n > 16) {
+    std::copy_n(from, n, to);
+    return;
+  }
+  for (int k = 0; k < n; ++k) {
+    to[k] = from[k];
+    asm volatile("" ::: "memory");  // no loop of vectors
   }
 }
 
@@ -169,7 +182,7 @@ Float4 sample_own(const View<Texel>& image, const std::uint16_t* owners, std::ui
                   const glm::vec2& at) {
   const Footprint f(at, image.width_px, image.height_px);
   const std::size_t first = image.offset(f.x, f.y);
-  const std::size_t down = f.dy ? static_cast<std::size_t>(image.width_px) : 0;
+  const std::size_t down = f.dy ? static_cast<std::size_t>(image.pitch_px) : 0;
   const std::array<std::size_t, 4> texels{first, first + std::size_t(f.dx), first + down,
                                           first + down + std::size_t(f.dx)};
   const std::array<float, 4> weights{(1 - f.s) * (1 - f.t), f.s * (1 - f.t), (1 - f.s) * f.t,
@@ -203,12 +216,15 @@ class TextureAdapter<Texel>::Engine {
       : log_(log),
         width_px_(image.width_px),
         height_px_(image.height_px),
-        pixels_(image.pixels.begin(), image.pixels.end()),
+        pitch_px_(width_px_ + kLine_px),
+        pixels_(pitch_px() * static_cast<std::size_t>(height_px_)),
         owners_(pixels_.size()),
         tiles_((width_px_ + kTile - 1) / kTile, (height_px_ + kTile - 1) / kTile),
         n_collapsed_(n_collapsed),
         options_(options) {
     if (options_.n_threads <= 0) options_.n_threads = hardware_threads();
+    for (int y = 0; y < height_px_; ++y)
+      std::copy_n(&image.at(0, y), width_px_, &pixels_[offset(0, y)]);
     for (int x = 0; x < width_px_; ++x) own_u_.push_back(own_place(x, 0, width_px_, height_px_).x);
     for (int y = 0; y < height_px_; ++y) own_v_.push_back(own_place(0, y, width_px_, height_px_).y);
     threads_.resize(static_cast<std::size_t>(options_.n_threads));
@@ -218,7 +234,10 @@ class TextureAdapter<Texel>::Engine {
   void go_to(std::size_t n_collapsed);
 
   const AdaptationLog& log_;
-  int width_px_, height_px_;
+  // Rows are one line of the cache longer than the image: of a power of two, all rows of a star
+  // would want the same few places in it.
+  static constexpr int kLine_px = 64 / sizeof(Texel);
+  int width_px_, height_px_, pitch_px_;
   LargeVector<Texel> pixels_;
   std::vector<float> own_u_, own_v_;  // what texels held at first, by column and row
   LargeVector<std::uint16_t> owners_;
@@ -226,6 +245,9 @@ class TextureAdapter<Texel>::Engine {
   std::size_t n_collapsed_;
   AdaptOptions options_;
   AdaptCounts counts_;
+
+  std::size_t offset(int x, int y) const { return view().offset(x, y); }
+  std::size_t pitch_px() const { return static_cast<std::size_t>(pitch_px_); }
 
  private:
   struct Span {
@@ -253,9 +275,16 @@ class TextureAdapter<Texel>::Engine {
     }
   };
   struct Cell {  // and how to read it
-    TexelTriangle from, to;
+    const glm::vec2 *from_points, *to_points;
+    std::array<std::uint16_t, 3> corners;
     std::uint16_t name;
     bool is_original, is_guarded;
+
+    TexelTriangle of(const glm::vec2* points) const {
+      return {points[corners[0]], points[corners[1]], points[corners[2]]};
+    }
+    TexelTriangle from() const { return of(from_points); }
+    TexelTriangle to() const { return of(to_points); }
   };
 
   void fill_own(int x, int y, int n, Texel* out) const {
@@ -264,8 +293,7 @@ class TextureAdapter<Texel>::Engine {
         store(Float4{own_u_[static_cast<std::size_t>(x + k)], own_v_[static_cast<std::size_t>(y)]},
               out[k]);
   }
-  std::size_t offset(int x, int y) const { return view().offset(x, y); }
-  View<Texel> view() const { return {pixels_.data(), width_px_, height_px_}; }
+  View<Texel> view() const { return {pixels_.data(), width_px_, height_px_, pitch_px_}; }
   glm::vec2 place_of(const glm::vec2& uv) const { return to_texels(uv, width_px_, height_px_); }
   TexelTriangle corners(const std::array<glm::vec2, 3>& uv) const {
     TexelTriangle out;
@@ -279,8 +307,8 @@ class TextureAdapter<Texel>::Engine {
   void gather_gutter(const Cell& cell, std::size_t k, Scratch& scratch) const;
   void release(const Adaptation& adaptation, const Scratch& scratch);
   void mark_tile(std::size_t texel) {
-    const auto x = static_cast<int>(texel % static_cast<std::size_t>(width_px_));
-    const auto y = static_cast<int>(texel / static_cast<std::size_t>(width_px_));
+    const auto x = static_cast<int>(texel % pitch_px());
+    const auto y = static_cast<int>(texel / pitch_px());
     const std::uint16_t name = owners_[texel] & ~kInside;
     std::uint16_t& tile = tiles_.at(x / kTile, y / kTile);
     if (name != 0 && tile != name) tile = tile == 0 ? name : kSeveral;
@@ -312,7 +340,8 @@ void TextureAdapter<Texel>::Engine::claim(const LevelCharts& charts) {
             owner = std::max<std::uint16_t>(owner, last[offset(i, j)] & ~kInside);
       }
   }
-  for (std::size_t i = 0; i < owners_.size(); ++i) mark_tile(i);
+  for (int y = 0; y < height_px_; ++y)
+    for (int x = 0; x < width_px_; ++x) mark_tile(offset(x, y));
 }
 
 template <typename Texel>
@@ -348,9 +377,8 @@ void TextureAdapter<Texel>::Engine::fetch(std::size_t collapse) const {
   const int x1 = std::clamp(static_cast<int>(hi.x) + 1, 0, width_px_ - 1);
   const int y0 = std::clamp(static_cast<int>(lo.y), 0, height_px_ - 1);
   const int y1 = std::clamp(static_cast<int>(hi.y) + 1, 0, height_px_ - 1);
-  constexpr int kLine = 64 / sizeof(Texel);
   for (int y = y0; y <= y1; ++y)
-    for (int x = x0; x <= x1; x += kLine) __builtin_prefetch(&pixels_[offset(x, y)]);
+    for (int x = x0; x <= x1; x += kLine_px) __builtin_prefetch(&pixels_[offset(x, y)]);
 }
 
 // Whether another chart's texels are so near that a sample may take one.
@@ -383,11 +411,11 @@ void TextureAdapter<Texel>::Engine::adapt(std::size_t collapse, bool is_collapse
   }
   bool has_border = false;
   Cell cell;
+  cell.from_points = scratch.from.data(), cell.to_points = scratch.to.data();
   cell.is_guarded = log_.n_charts > 1 && meets_others(adaptation, scratch);
   const auto visit_cells = [&](auto&& visit) {
     for (const AdaptationTriangle& t : adaptation.triangles) {
-      for (std::size_t k = 0; k < 3; ++k)
-        cell.from[k] = scratch.from[t.corners[k]], cell.to[k] = scratch.to[t.corners[k]];
+      cell.corners = t.corners;
       cell.name = name_of(t.chart);
       cell.is_original = kIsIndex<Texel> && !is_collapse && t.is_original();
       visit(t);
@@ -409,12 +437,13 @@ void TextureAdapter<Texel>::Engine::adapt(std::size_t collapse, bool is_collapse
 template <typename Texel>
 void TextureAdapter<Texel>::Engine::gather_cell(const Cell& cell, Scratch& scratch) const {
   const int w = width_px_, h = height_px_;
-  const TexelAffine source = make_affine(cell.to, cell.from);
-  Texel* values = scratch.make_room(cell.to);
+  const TexelTriangle to = cell.to();
+  const TexelAffine source = make_affine(to, cell.from());
+  Texel* values = scratch.make_room(to);
   Span* span = scratch.spans.data() + scratch.n_spans;
   const auto owner = static_cast<std::uint16_t>(kInside | cell.name);
   for_each_span(
-      cell.to, w, h, [&](int x0, int x1, int y) __attribute__((always_inline)) {
+      to, w, h, [&](int x0, int x1, int y) __attribute__((always_inline)) {
         const int n = x1 - x0;
         *span++ = {static_cast<std::uint32_t>(offset(x0, y)), static_cast<std::uint16_t>(n), owner};
         const Line line{source(glm::vec2(x0, y)), source.x};
@@ -437,16 +466,17 @@ template <typename Texel>
 void TextureAdapter<Texel>::Engine::gather_gutter(const Cell& cell, std::size_t k,
                                                   Scratch& scratch) const {
   const int w = width_px_, h = height_px_;
-  const TexelAffine source = make_affine(cell.to, cell.from);
-  const glm::vec2 p = cell.to[k], edge = cell.to[(k + 1) % 3] - p;
-  const glm::vec2 out = outward(edge, area2(cell.to) < 0);
+  const TexelTriangle from = cell.from(), to = cell.to();
+  const TexelAffine source = make_affine(to, from);
+  const glm::vec2 p = to[k], edge = to[(k + 1) % 3] - p;
+  const glm::vec2 out = outward(edge, area2(to) < 0);
   const float length = glm::length(edge);
   if (!(length > 0)) return;
   const glm::vec2 along = kGutter / length * edge;
   const std::array<glm::vec2, 4> strip{p - along, p + edge + along,
                                        p + edge + along + kGutter * out, p - along + kGutter * out};
-  const glm::vec2 q = cell.from[k], from_edge = cell.from[(k + 1) % 3] - q;
-  const glm::vec2 from_out = outward(from_edge, area2(cell.from) < 0);
+  const glm::vec2 q = from[k], from_edge = from[(k + 1) % 3] - q;
+  const glm::vec2 from_out = outward(from_edge, area2(from) < 0);
   const float from_length = glm::length(from_edge);
   const glm::vec2 from_along = from_length > 0 ? from_edge / from_length : glm::vec2(0);
   // No farther from the edge than there are texels of the chart.
@@ -490,7 +520,7 @@ void TextureAdapter<Texel>::Engine::write_inside(Scratch& scratch) {
   const Texel* value = scratch.values.data();
   for (const Span& span : std::span(scratch.spans).first(scratch.n_spans)) {
     Texel* texel = &pixels_[span.offset];
-    for (int k = 0; k < span.n; ++k) texel[k] = value[k];
+    copy_texels(value, span.n, texel);
     value += span.n;
   }
   scratch.n_texels += scratch.n_values;
@@ -541,12 +571,16 @@ template <typename Texel>
 Image<Texel> TextureAdapter<Texel>::image() const {
   Image<Texel> out;
   out.width_px = engine_->width_px_, out.height_px = engine_->height_px_;
-  out.pixels.assign(engine_->pixels_.begin(), engine_->pixels_.end());
+  out.pixels.resize(static_cast<std::size_t>(out.width_px) *
+                    static_cast<std::size_t>(out.height_px));
+  for (int y = 0; y < out.height_px; ++y)
+    std::copy_n(&engine_->pixels_[engine_->offset(0, y)], out.width_px, &out.at(0, y));
   return out;
 }
 template <typename Texel>
 bool TextureAdapter<Texel>::is_inside(std::size_t texel) const {
-  return engine_->owners_[texel] & kInside;
+  const auto width = static_cast<std::size_t>(engine_->width_px_);
+  return engine_->owners_[texel / width * engine_->pitch_px() + texel % width] & kInside;
 }
 template <typename Texel>
 const AdaptCounts& TextureAdapter<Texel>::counts() const {
