@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "bake/texel_spans.h"
 #include "image/image.h"
+#include "image/texel_spans.h"
 
 namespace viewcell {
 namespace {

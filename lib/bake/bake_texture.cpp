@@ -4,8 +4,8 @@
 
 #include "bake/adapt_packs.h"
 #include "bake/gutter.h"
-#include "bake/texel_spans.h"
 #include "base/parallel.h"
+#include "image/texel_spans.h"
 
 namespace viewcell {
 namespace {

@@ -6,8 +6,8 @@
 #include <span>
 
 #include "bake/chart_map.h"
-#include "bake/texel_spans.h"
 #include "base/error.h"
+#include "image/texel_spans.h"
 #include "mesh/uv_stretch.h"
 
 namespace viewcell {

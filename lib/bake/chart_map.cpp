@@ -5,8 +5,8 @@
 #include <numeric>
 #include <tuple>
 
-#include "bake/texel_spans.h"
 #include "base/error.h"
+#include "image/texel_spans.h"
 #include "mesh/edges.h"
 #include "mesh/repair.h"
 

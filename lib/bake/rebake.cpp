@@ -7,8 +7,8 @@
 
 #include "bake/chart_map.h"
 #include "bake/gutter.h"
-#include "bake/texel_spans.h"
 #include "base/error.h"
+#include "image/texel_spans.h"
 #include "mesh/closest_point.h"
 #include "mesh/repair.h"
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <glm/glm.hpp>
 
-#include "bake/texel_spans.h"
+#include "image/texel_spans.h"
 
 namespace viewcell {
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <tuple>
 
 #include "base/error.h"
@@ -23,28 +22,6 @@ struct Finest {
   std::size_t n_charts = 0;
 };
 
-// Charts: faces that are connected by wedges; numbers in the order of the faces.
-void find_charts(Finest& mesh) {
-  std::vector<std::uint32_t> parent(mesh.wedges.n_wedges());
-  std::iota(parent.begin(), parent.end(), 0u);
-  const auto root = [&](std::uint32_t w) {
-    while (parent[w] != w) w = parent[w] = parent[parent[w]];
-    return w;
-  };
-  for (const Triangle& f : mesh.wedges.faces)
-    for (std::size_t k = 1; k < 3; ++k) {
-      const std::uint32_t a = root(f[0]), b = root(f[k]);
-      parent[std::max(a, b)] = std::min(a, b);
-    }
-  constexpr std::uint32_t kNone = 0xffffffffu;
-  std::vector<std::uint32_t> chart_of(parent.size(), kNone);
-  for (const Triangle& f : mesh.wedges.faces) {
-    std::uint32_t& chart = chart_of[root(f[0])];
-    if (chart == kNone) chart = static_cast<std::uint32_t>(mesh.n_charts++);
-    mesh.charts.push_back(chart);
-  }
-}
-
 ProgressiveMesh at_finest(const ProgressiveRecord& record) {
   ProgressiveMesh mesh(record);
   mesh.set_level(mesh.n_splits());
@@ -62,7 +39,9 @@ Finest make_finest(const ProgressiveMesh& mesh) {
     out.wedges.wedge_vertex.push_back(record.vertex_of[w < n ? w : record.extra_sources[w - n]]);
   out.wedges.faces = record.faces;
   out.triangles = out.wedges.vertex_triangles();
-  find_charts(out);
+  out.charts = find_charts(out.wedges);
+  for (const std::uint32_t chart : out.charts)
+    out.n_charts = std::max<std::size_t>(out.n_charts, chart + 1);
   return out;
 }
 
@@ -119,6 +98,9 @@ class LogBuilder {
   bool add_cells();
   bool add_triangle(const AdaptationTriangle& triangle, int turn);
   void mark_borders();
+  const glm::vec2& texcoord_at(std::uint32_t corner) const {
+    return finest_.wedges.texcoords[table_.at(corner)];
+  }
   bool is_border(const Edge& edge) const;
   bool has_neighbour(std::uint32_t face, std::uint32_t u) const;
   int turn_of_face(std::uint32_t face) const;
@@ -282,9 +264,12 @@ bool LogBuilder::has_neighbour(std::uint32_t face, std::uint32_t u) const {
   const std::uint32_t a = 3 * face + (k + 1) % 3, b = 3 * face + (k + 2) % 3;
   bool found = false;
   mesh_.for_each_corner(mesh_.vertex_at(a), [&](std::uint32_t c) {
-    if (c / 3 == face || table_.at(c) != table_.at(a)) return;
-    for (std::uint32_t j = 1; j < 3; ++j)
-      found = found || table_.at(3 * (c / 3) + (c + j) % 3) == table_.at(b);
+    if (c / 3 == face || texcoord_at(c) != texcoord_at(a)) return;
+    for (std::uint32_t j = 1; j < 3; ++j) {
+      const std::uint32_t other = 3 * (c / 3) + (c + j) % 3;
+      found = found || (mesh_.vertex_at(other) == mesh_.vertex_at(b) &&
+                        texcoord_at(other) == texcoord_at(b));
+    }
   });
   return found;
 }

@@ -41,15 +41,16 @@ float unit_scale(std::span<const glm::vec3> positions) {
 // Runs the loop in slices, for the progress.
 template <typename Metric>
 CollapseCounts collapse_all(CollapseMesh& mesh, Metric& metric, Recorder& recorder,
-                            CollapseBound* guard, float scale, const BuildOptions& options,
-                            const Progress& progress) {
+                            CollapseBound* guard, ChartGuard* charts, float scale,
+                            const BuildOptions& options, const Progress& progress) {
   constexpr std::size_t kSlices = 100;
   RecordedMetric<Metric> recorded{mesh,
                                   metric,
                                   recorder,
                                   guard,
                                   options.error_bound * scale,
-                                  options.refuse_folds || needs_texture(options.metric)};
+                                  options.refuse_folds || needs_texture(options.metric),
+                                  charts};
   CollapseLoop loop(mesh, recorded);
   const std::size_t start = mesh.n_triangles();
   const std::size_t span = start - std::min(start, std::max<std::size_t>(options.target_faces, 1));
@@ -84,9 +85,12 @@ CollapseCounts run_metric(CollapseMesh& mesh, WedgeMesh& wedges,
   std::optional<CollapseBound> guard;
   if (options.track_error || std::isfinite(options.error_bound))
     guard.emplace(mesh, recorder.table(), positions, DeviationBoxes(triangles.size()));
+  std::optional<ChartGuard> charts;
+  if (options.charts_apart_px > 0 && !wedges.texcoords.empty())
+    charts.emplace(wedges, options.charts_apart_px);
   const auto run = [&](auto&& metric) {
-    return collapse_all(mesh, metric, recorder, guard ? &*guard : nullptr, scale, options,
-                        progress);
+    return collapse_all(mesh, metric, recorder, guard ? &*guard : nullptr,
+                        charts ? &*charts : nullptr, scale, options, progress);
   };
   if (options.metric == MetricKind::mapping && options.placement == Placement::full) {
     if (options.measure == Measure::mean)

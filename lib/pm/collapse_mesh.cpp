@@ -8,7 +8,7 @@ namespace viewcell {
 
 const char* refusal_name(Refusal refusal) {
   constexpr const char* names[kRefusalKinds] = {"none",  "link", "boundary", "flip",  "sliver",
-                                                "chart", "fold", "bound",    "metric"};
+                                                "chart", "fold", "overlap",  "bound", "metric"};
   return names[static_cast<int>(refusal)];
 }
 

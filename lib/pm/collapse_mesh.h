@@ -20,10 +20,11 @@ namespace viewcell {
 /// - sliver: a triangle would have next to no height
 /// - chart: a vertex would leave its texture chart's boundary
 /// - fold: a triangle would turn over in the texture
+/// - overlap: a texture chart would grow over another
 /// - bound: the distance to the input could pass the bound that was asked for
 /// - metric: the metric said no
-enum class Refusal { none, link, boundary, flip, sliver, chart, fold, bound, metric };
-inline constexpr int kRefusalKinds = 9;
+enum class Refusal { none, link, boundary, flip, sliver, chart, fold, overlap, bound, metric };
+inline constexpr int kRefusalKinds = 10;
 const char* refusal_name(Refusal refusal);
 
 /// What a collapse did to the triangles, by their numbers in the input.

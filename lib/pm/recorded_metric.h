@@ -19,7 +19,8 @@ struct RecordedMetric {
   Recorder& recorder;
   CollapseBound* guard;  ///< for the error bound, or none
   float error_bound;
-  bool refuse_folds;  ///< in the texture
+  bool refuse_folds;   ///< in the texture
+  ChartGuard* charts;  ///< to keep them apart, or none
   glm::vec3 last_place{0};
 
   static constexpr bool kPlaces = requires(Metric m) { m.place(0u, 0u); };
@@ -51,6 +52,7 @@ struct RecordedMetric {
     if (kPlaces && is_astray(u, v)) return Refusal::metric;
     merge(u, v);
     if (refuse_folds && recorder.folds(mesh, u, v)) return Refusal::fold;
+    if (charts && recorder.overlaps(mesh, u, v, *charts)) return Refusal::overlap;
     const Refusal refusal = metric_allows(u, v);
     if (refusal != Refusal::none || !guard) return refusal;
     const float reach = kPlaces ? guard->look(u, v, last_place) : guard->look(u, v);
@@ -71,7 +73,8 @@ struct RecordedMetric {
   void merge(std::uint32_t u, std::uint32_t v) {
     if constexpr (requires { metric.texcoord(); })
       if (metric.texcoord()) return recorder.merge(*metric.texcoord());
-    if (kPlaces || refuse_folds) recorder.merge(mesh, u, v, kPlaces ? last_place : glm::vec3(0));
+    if (kPlaces || refuse_folds || charts)
+      recorder.merge(mesh, u, v, kPlaces ? last_place : glm::vec3(0));
   }
   Refusal metric_allows(std::uint32_t u, std::uint32_t v) {
     if constexpr (requires { metric.allows(mesh, u, v, last_place); })
@@ -94,6 +97,7 @@ struct RecordedMetric {
   void collapsed(std::uint32_t u, std::uint32_t v, const Place&... place) {
     metric.collapsed(u, v, place...);
     if (guard) guard->take();
+    if (charts) charts->take();
   }
 };
 

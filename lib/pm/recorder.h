@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "pm/chart_guard.h"
 #include "pm/progressive_mesh.h"
 #include "pm/texture_fold.h"
 #include "pm/wedge_mesh.h"
@@ -31,6 +32,10 @@ class Recorder {
   bool folds(const CollapseMesh& mesh, std::uint32_t u, std::uint32_t v) const {
     return !texcoords_.empty() &&
            turns_over_texture(mesh, table_, texcoords_, u, v, merged_, is_full_);
+  }
+  /// Whether it makes a chart grow over another.
+  bool overlaps(const CollapseMesh& mesh, std::uint32_t u, std::uint32_t v, ChartGuard& charts) {
+    return charts.overlaps(mesh, table_, texcoords_, u, v, merged_, is_full_);
   }
   /// The triangles have changed; the parent has not moved yet.
   void traced(std::uint32_t u, std::uint32_t v, const CollapseTrace& trace);

@@ -170,6 +170,40 @@ WedgeMesh make_wedges(const TriMesh& mesh, bool along_curve) {
   return out;
 }
 
+std::vector<std::uint32_t> find_charts(const WedgeMesh& mesh) {
+  std::vector<std::uint32_t> parent(mesh.n_wedges());
+  std::iota(parent.begin(), parent.end(), 0u);
+  const auto root = [&](std::uint32_t w) {
+    while (parent[w] != w) w = parent[w] = parent[parent[w]];
+    return w;
+  };
+  const auto join = [&](std::uint32_t a, std::uint32_t b) {
+    a = root(a), b = root(b);
+    parent[std::max(a, b)] = std::min(a, b);
+  };
+  for (const Triangle& f : mesh.faces) join(f[0], f[1]), join(f[0], f[2]);
+  // Wedges may differ in normals or colours alone.
+  std::vector<std::uint32_t> order(mesh.n_wedges());
+  std::iota(order.begin(), order.end(), 0u);
+  const auto key = [&](std::uint32_t w) {
+    return std::tuple(mesh.wedge_vertex[w], mesh.texcoords[w].x, mesh.texcoords[w].y, w);
+  };
+  std::sort(order.begin(), order.end(), [&](auto a, auto b) { return key(a) < key(b); });
+  for (std::size_t i = 1; i < order.size(); ++i)
+    if (mesh.wedge_vertex[order[i]] == mesh.wedge_vertex[order[i - 1]] &&
+        mesh.texcoords[order[i]] == mesh.texcoords[order[i - 1]])
+      join(order[i], order[i - 1]);
+  constexpr std::uint32_t kNone = 0xffffffffu;
+  std::vector<std::uint32_t> chart_of(mesh.n_wedges(), kNone), charts;
+  std::uint32_t n_charts = 0;
+  for (const Triangle& f : mesh.faces) {
+    std::uint32_t& chart = chart_of[root(f[0])];
+    if (chart == kNone) chart = n_charts++;
+    charts.push_back(chart);
+  }
+  return charts;
+}
+
 WedgeTable::WedgeTable(const WedgeMesh& mesh) : has_charts_(!mesh.texcoords.empty()) {
   corners_.reserve(3 * mesh.faces.size());
   for (const Triangle& face : mesh.faces) corners_.insert(corners_.end(), face.begin(), face.end());

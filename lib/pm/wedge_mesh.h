@@ -33,6 +33,10 @@ struct WedgeMesh {
 /// along_curve: false keeps the order of the file.
 WedgeMesh make_wedges(const TriMesh& mesh, bool along_curve = false);
 
+/// The texture chart of every face: charts are what corners of equal vertex and texture coordinates
+/// connect. Numbers in the order of their first faces. mesh must have texture coordinates.
+std::vector<std::uint32_t> find_charts(const WedgeMesh& mesh);
+
 /// The wedge at every corner while the mesh collapses.
 class WedgeTable {
  public:

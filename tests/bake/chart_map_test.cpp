@@ -9,7 +9,7 @@
 
 #include "bake/atlas_cube.h"
 #include "bake/chart_checks.h"
-#include "bake/texel_spans.h"
+#include "image/texel_spans.h"
 #include "base/random.h"
 #include "mesh/io.h"
 #include "mesh/surfaces.h"

@@ -6,7 +6,7 @@
 
 #include "bake/atlas_cube.h"
 #include "bake/chart_map.h"
-#include "bake/texel_spans.h"
+#include "image/texel_spans.h"
 #include "base/random.h"
 #include "mesh/closest_point.h"
 #include "pm/build.h"

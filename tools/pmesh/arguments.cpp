@@ -61,6 +61,11 @@ void declare_build(CLI::App& app, PmeshArguments& a) {
                  "and --bounded have it)");
   build.add_flag("--no-folds", a.build.refuse_folds,
                  "refuse what turns a triangle over in the texture (qem5, aps, mapping do)");
+  build
+      .add_option("--charts-apart", a.build.charts_apart_px,
+                  "for texadapt: texels a side of the texture on which no chart may grow over "
+                  "another as borders are simplified; 0: do not look")
+      ->check(whole_within(0, 32768));
   build.add_flag("--no-texture", a.no_texture,
                  "leave texture coordinates out: charts then hold nothing back");
   build.add_flag("--exact", a.exact, "look at every changed cost at once, not when it comes up");
@@ -107,6 +112,8 @@ void check_metric_options(const CLI::App& build, const PmeshArguments& a) {
 
 void check_texture_options(const PmeshArguments& a) {
   if (!a.no_texture) return;
+  if (a.build.charts_apart_px > 0)
+    throw UsageError("--charts-apart looks at the texture that --no-texture leaves out");
   if (a.build.refuse_folds)
     throw UsageError("--no-folds looks at the texture that --no-texture leaves out");
   const bool is_full = a.build.placement == Placement::full;

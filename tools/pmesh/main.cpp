@@ -30,6 +30,7 @@ Json format_options(const BuildOptions& b) {
   if (std::isfinite(b.error_bound)) out["error_bound"] = b.error_bound;
   if (b.track_error) out["track_error"] = true;
   if (b.refuse_folds) out["refuse_folds"] = true;
+  if (b.charts_apart_px > 0) out["charts_apart_px"] = b.charts_apart_px;
   if (b.metric == MetricKind::qem5) out["texture_weight"] = b.texture_weight;
   if (b.metric == MetricKind::qem3 || b.metric == MetricKind::qem5) {
     out["area_weighted"] = b.qem.area_weighted;
