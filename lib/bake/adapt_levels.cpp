@@ -1,6 +1,7 @@
 #include "bake/adapt_levels.h"
 
 #include "bake/bake_texture.h"
+#include "bake/gl_texture_adapt.h"
 #include "base/error.h"
 
 namespace viewcell {
@@ -23,12 +24,18 @@ class AdaptLevels::Adapter {
   virtual ImageRgba8 texture() const = 0;
 };
 
-template <typename Texel>
+// Engine: TextureAdapter or GlTextureAdapter.
+template <typename Texel, typename Engine>
 class AdaptLevels::AdapterOf : public Adapter {
  public:
-  explicit AdapterOf(TextureAdapter<Texel> adapter) : adapter_(std::move(adapter)) {}
-  void go_to(std::size_t n_collapsed) override { adapter_.go_to(n_collapsed); }
-  const AdaptCounts& counts() const override { return adapter_.counts(); }
+  explicit AdapterOf(Engine adapter) : adapter_(std::move(adapter)) {}
+  void go_to(std::size_t n_collapsed) override {
+    adapter_.go_to(n_collapsed);
+    counts_.n_adaptations = adapter_.counts().n_adaptations;
+    counts_.n_packs = adapter_.counts().n_packs;
+    if constexpr (std::is_same_v<Engine, TextureAdapter<Texel>>) counts_ = adapter_.counts();
+  }
+  const AdaptCounts& counts() const override { return counts_; }
   IndexMap map() const override {
     if constexpr (std::is_same_v<Texel, Rgba8>)
       VIEWCELL_CHECK(false);
@@ -43,7 +50,8 @@ class AdaptLevels::AdapterOf : public Adapter {
   }
 
  private:
-  TextureAdapter<Texel> adapter_;
+  Engine adapter_;
+  AdaptCounts counts_;
 };
 
 namespace {
@@ -72,8 +80,13 @@ AdaptLevels::AdaptLevels(const ProgressiveRecord& record, const AdaptationLog& l
   if (options_.start) mesh_.set_faces(options_.start_faces);
   const int width_px = options_.width_px, height_px = options_.height_px;
   const auto make = [&]<typename Texel>(Image<Texel> image) {
-    adapter_ = std::make_unique<AdapterOf<Texel>>(
-        TextureAdapter<Texel>(log_, image, charts(), n_collapsed(), options_.adapt));
+    if (options_.gl)
+      adapter_ =
+          std::make_unique<AdapterOf<Texel, GlTextureAdapter<Texel>>>(GlTextureAdapter<Texel>(
+              *options_.gl, log_, image, charts(), n_collapsed(), {.pack = options_.adapt.pack}));
+    else
+      adapter_ = std::make_unique<AdapterOf<Texel, TextureAdapter<Texel>>>(
+          TextureAdapter<Texel>(log_, image, charts(), n_collapsed(), options_.adapt));
   };
   const auto make_map = [&]<typename Texel>(Texel) {
     if (options_.start)

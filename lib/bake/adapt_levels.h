@@ -6,6 +6,7 @@
 #include <string>
 
 #include "bake/texture_adapt.h"
+#include "gl/objects.h"
 #include "image/index_map.h"
 #include "pm/progressive_mesh.h"
 
@@ -21,6 +22,7 @@ struct AdaptLevelsOptions {
   int width_px = 0, height_px = 0;  ///< of the map; 0: the texture's
   TexelKind texel = TexelKind::float32;
   AdaptOptions adapt;
+  const Gl* gl = nullptr;  ///< adapt by drawing; counts have no texels then
   /// A map to start from, and the faces of the level that it is of (the finest of at most so many);
   /// without: the identity, at the finest level. Not for TexelKind::texture.
   std::optional<IndexMap> start;
@@ -52,7 +54,7 @@ class AdaptLevels {
 
  private:
   class Adapter;
-  template <typename Texel>
+  template <typename Texel, typename Engine>
   class AdapterOf;
 
   const AdaptationLog& log_;

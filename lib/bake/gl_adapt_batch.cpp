@@ -237,8 +237,8 @@ void AdaptBatchBuilder::add_gutter(const TexelTriangle& from, const TexelTriangl
   if (from_length > 0) {
     vertex.origin = q, vertex.along = from_edge / from_length;
     vertex.side = area2(from) < 0 ? -1.0f : 1.0f;
-    vertex.lo = {-kGutterReach, -kUnlimited};
-    vertex.hi = {from_length + kGutterReach, kGutterReach};
+    vertex.lo = {-kGutter, -kUnlimited};
+    vertex.hi = {from_length + kGutter, kGutter};
   }
   const glm::vec2 from_out = outward(vertex.along, vertex.side);
   const TexelAffine source = make_affine(to, from);

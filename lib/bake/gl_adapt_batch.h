@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "bake/texel_owners.h"
-#include "bake/texel_spans.h"
+#include "image/texel_spans.h"
 #include "pm/adaptation.h"
 
 namespace viewcell {

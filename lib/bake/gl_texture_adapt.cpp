@@ -164,7 +164,8 @@ template <typename Texel>
 void GlTextureAdapter<Texel>::Engine::go_to(std::size_t n_collapsed) {
   const bool is_collapse = n_collapsed > n_collapsed_;
   const AdaptPacks packs =
-      pack_adaptations(log_, n_collapsed_, n_collapsed, width_px_, height_px_, options_.pack);
+      pack_adaptations(log_, n_collapsed_ * log_.steps_per_collapse,
+                       n_collapsed * log_.steps_per_collapse, width_px_, height_px_, options_.pack);
   for (std::size_t p = 0; p < packs.size(); ++p) {
     builder_.add_pack(
         std::span(packs.order).subspan(packs.first[p], packs.first[p + 1] - packs.first[p]),

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "bake/adapt_packs.h"
-#include "bake/texel_spans.h"
+#include "image/texel_spans.h"
 
 namespace viewcell {
 namespace {

@@ -8,6 +8,7 @@
 
 #include "bake/adapt_packs.h"
 #include "bake/texel_affine.h"
+#include "bake/texel_owners.h"
 #include "base/large_vector.h"
 #include "base/parallel.h"
 #include "image/half.h"
@@ -166,16 +167,6 @@ void copy_texels(const Texel* from, int n, Texel* to) {
   }
 }
 
-// Who has a texel: 0 nobody, else a chart's name, with kInside where the chart lies.
-constexpr std::uint16_t kInside = 0x8000;
-std::uint16_t name_of(std::uint32_t chart) {
-  return static_cast<std::uint16_t>(chart % (kInside - 2) + 1);
-}
-
-// Of texels, a side: parts of the map that belong to one chart, mostly.
-constexpr int kTile = 8;
-constexpr std::uint16_t kSeveral = 0x7fff;
-
 // The same from the texels of one chart alone; of none where all are others'.
 template <typename Texel>
 Float4 sample_own(const View<Texel>& image, const std::uint16_t* owners, std::uint16_t name,
@@ -190,7 +181,7 @@ Float4 sample_own(const View<Texel>& image, const std::uint16_t* owners, std::ui
   Float4 sum{};
   float weight = 0;
   for (std::size_t k = 0; k < 4; ++k)
-    if ((owners[texels[k]] & ~kInside) == name)
+    if ((owners[texels[k]] & ~kInsideChart) == name)
       sum += weights[k] * load(image.pixels[texels[k]]), weight += weights[k];
   return weight > 1e-3f ? sum / weight : sample(image, at);
 }
@@ -211,26 +202,27 @@ float area2(const TexelTriangle& p) {
 template <typename Texel>
 class TextureAdapter<Texel>::Engine {
  public:
-  Engine(const AdaptationLog& log, const Image<Texel>& image, std::size_t n_collapsed,
-         const AdaptOptions& options)
+  Engine(const AdaptationLog& log, const Image<Texel>& image, const Image<std::uint16_t>& owners,
+         std::size_t n_collapsed, const AdaptOptions& options)
       : log_(log),
         width_px_(image.width_px),
         height_px_(image.height_px),
         pitch_px_(width_px_ + kLine_px),
         pixels_(pitch_px() * static_cast<std::size_t>(height_px_)),
         owners_(pixels_.size()),
-        tiles_((width_px_ + kTile - 1) / kTile, (height_px_ + kTile - 1) / kTile),
+        tiles_(owners),
         n_collapsed_(n_collapsed),
         options_(options) {
     if (options_.n_threads <= 0) options_.n_threads = hardware_threads();
-    for (int y = 0; y < height_px_; ++y)
+    for (int y = 0; y < height_px_; ++y) {
       std::copy_n(&image.at(0, y), width_px_, &pixels_[offset(0, y)]);
+      std::copy_n(&owners.at(0, y), width_px_, &owners_[offset(0, y)]);
+    }
     for (int x = 0; x < width_px_; ++x) own_u_.push_back(own_place(x, 0, width_px_, height_px_).x);
     for (int y = 0; y < height_px_; ++y) own_v_.push_back(own_place(0, y, width_px_, height_px_).y);
     threads_.resize(static_cast<std::size_t>(options_.n_threads));
   }
 
-  void claim(const LevelCharts& charts);
   void go_to(std::size_t n_collapsed);
 
   const AdaptationLog& log_;
@@ -241,7 +233,7 @@ class TextureAdapter<Texel>::Engine {
   LargeVector<Texel> pixels_;
   std::vector<float> own_u_, own_v_;  // what texels held at first, by column and row
   LargeVector<std::uint16_t> owners_;
-  Image<std::uint16_t> tiles_;  // who has texels there; kSeveral
+  OwnerTiles tiles_;
   std::size_t n_collapsed_;
   AdaptOptions options_;
   AdaptCounts counts_;
@@ -295,54 +287,18 @@ class TextureAdapter<Texel>::Engine {
   }
   View<Texel> view() const { return {pixels_.data(), width_px_, height_px_, pitch_px_}; }
   glm::vec2 place_of(const glm::vec2& uv) const { return to_texels(uv, width_px_, height_px_); }
-  TexelTriangle corners(const std::array<glm::vec2, 3>& uv) const {
-    TexelTriangle out;
-    for (std::size_t k = 0; k < 3; ++k) out[k] = place_of(uv[k]);
-    return out;
-  }
   void fetch(std::size_t collapse) const;
   bool meets_others(const Adaptation& adaptation, const Scratch& scratch) const;
   void adapt(std::size_t collapse, bool is_collapse, Scratch& scratch);
   void gather_cell(const Cell& cell, Scratch& scratch) const;
   void gather_gutter(const Cell& cell, std::size_t k, Scratch& scratch) const;
   void release(const Adaptation& adaptation, const Scratch& scratch);
-  void mark_tile(std::size_t texel) {
-    const auto x = static_cast<int>(texel % pitch_px());
-    const auto y = static_cast<int>(texel / pitch_px());
-    const std::uint16_t name = owners_[texel] & ~kInside;
-    std::uint16_t& tile = tiles_.at(x / kTile, y / kTile);
-    if (name != 0 && tile != name) tile = tile == 0 ? name : kSeveral;
-  }
+  void mark_tiles(const Adaptation& adaptation, const Scratch& scratch);
   void write_inside(Scratch& scratch);
   void write_border(Scratch& scratch);
 
   std::vector<Scratch> threads_;
 };
-
-// Texels inside first, then gutters around them.
-template <typename Texel>
-void TextureAdapter<Texel>::Engine::claim(const LevelCharts& charts) {
-  for (std::size_t f = 0; f < charts.faces.size(); ++f)
-    for_each_span(corners(charts.faces[f]), width_px_, height_px_, [&](int x0, int x1, int y) {
-      std::uint16_t* owner = &owners_[offset(x0, y)];
-      for (int k = 0; k < x1 - x0; ++k)
-        if (owner[k] == 0) owner[k] = kInside | name_of(charts.charts[f]);
-    });
-  const int reach = static_cast<int>(kGutter);
-  for (int step = 0; step < reach; ++step) {
-    const LargeVector<std::uint16_t> last = owners_;
-    for (int y = 0; y < height_px_; ++y)
-      for (int x = 0; x < width_px_; ++x) {
-        std::uint16_t& owner = owners_[offset(x, y)];
-        if (owner != 0) continue;
-        for (int j = std::max(y - 1, 0); j <= std::min(y + 1, height_px_ - 1); ++j)
-          for (int i = std::max(x - 1, 0); i <= std::min(x + 1, width_px_ - 1); ++i)
-            owner = std::max<std::uint16_t>(owner, last[offset(i, j)] & ~kInside);
-      }
-  }
-  for (int y = 0; y < height_px_; ++y)
-    for (int x = 0; x < width_px_; ++x) mark_tile(offset(x, y));
-}
 
 template <typename Texel>
 void TextureAdapter<Texel>::Engine::go_to(std::size_t n_collapsed) {
@@ -387,15 +343,10 @@ bool TextureAdapter<Texel>::Engine::meets_others(const Adaptation& adaptation,
                                                  const Scratch& scratch) const {
   glm::vec2 lo(1e30f), hi(-1e30f);
   for (const glm::vec2& p : scratch.from) lo = glm::min(lo, p), hi = glm::max(hi, p);
-  const auto tile = [](float at, int n) {
-    return std::clamp(static_cast<int>(std::clamp(at, 0.0f, 1e6f)) / kTile, 0, n - 1);
-  };
-  const int x1 = tile(hi.x + 2, tiles_.width_px), y1 = tile(hi.y + 2, tiles_.height_px);
-  for (int y = tile(lo.y - 2, tiles_.height_px); y <= y1; ++y)
-    for (int x = tile(lo.x - 2, tiles_.width_px); x <= x1; ++x)
-      for (const AdaptationTriangle& t : adaptation.triangles)
-        if (tiles_.at(x, y) != 0 && tiles_.at(x, y) != name_of(t.chart)) return true;
-  return false;
+  return std::any_of(adaptation.triangles.begin(), adaptation.triangles.end(),
+                     [&](const AdaptationTriangle& t) {
+                       return tiles_.has_others(lo - 2.0f, hi + 2.0f, owner_name(t.chart));
+                     });
 }
 
 template <typename Texel>
@@ -416,7 +367,7 @@ void TextureAdapter<Texel>::Engine::adapt(std::size_t collapse, bool is_collapse
   const auto visit_cells = [&](auto&& visit) {
     for (const AdaptationTriangle& t : adaptation.triangles) {
       cell.corners = t.corners;
-      cell.name = name_of(t.chart);
+      cell.name = owner_name(t.chart);
       cell.is_original = kIsIndex<Texel> && !is_collapse && t.is_original();
       visit(t);
     }
@@ -432,6 +383,7 @@ void TextureAdapter<Texel>::Engine::adapt(std::size_t collapse, bool is_collapse
   });
   release(adaptation, scratch);
   write_border(scratch);
+  mark_tiles(adaptation, scratch);
 }
 
 template <typename Texel>
@@ -441,7 +393,7 @@ void TextureAdapter<Texel>::Engine::gather_cell(const Cell& cell, Scratch& scrat
   const TexelAffine source = make_affine(to, cell.from());
   Texel* values = scratch.make_room(to);
   Span* span = scratch.spans.data() + scratch.n_spans;
-  const auto owner = static_cast<std::uint16_t>(kInside | cell.name);
+  const auto owner = static_cast<std::uint16_t>(kInsideChart | cell.name);
   for_each_span(
       to, w, h, [&](int x0, int x1, int y) __attribute__((always_inline)) {
         const int n = x1 - x0;
@@ -510,7 +462,7 @@ void TextureAdapter<Texel>::Engine::release(const Adaptation& adaptation, const 
                   width_px_, height_px_, [&](int x0, int x1, int y) {
                     std::uint16_t* owner = &owners_[offset(x0, y)];
                     for (int k = 0; k < x1 - x0; ++k)
-                      if (owner[k] == (kInside | name_of(t.chart))) owner[k] = 0;
+                      if (owner[k] == (kInsideChart | owner_name(t.chart))) owner[k] = 0;
                   });
 }
 
@@ -532,17 +484,27 @@ void TextureAdapter<Texel>::Engine::write_border(Scratch& scratch) {
   for (const Span& span : std::span(scratch.spans).first(scratch.n_spans)) {
     std::uint16_t* owner = &owners_[span.offset];
     Texel* texel = &pixels_[span.offset];
-    const bool is_inside = span.owner & kInside;
+    const bool is_inside = span.owner & kInsideChart;
     for (int k = 0; k < span.n; ++k, ++value) {
-      if (owner[k] & kInside) {
+      if (owner[k] & kInsideChart) {
         scratch.n_conflicts += is_inside;
         continue;
       }
       texel[k] = *value;
       owner[k] = span.owner;
-      mark_tile(span.offset + static_cast<std::size_t>(k));
     }
     if (is_inside) scratch.n_texels += std::size_t(span.n);
+  }
+}
+
+template <typename Texel>
+void TextureAdapter<Texel>::Engine::mark_tiles(const Adaptation& adaptation,
+                                               const Scratch& scratch) {
+  for (const AdaptationTriangle& t : adaptation.triangles) {
+    glm::vec2 lo(1e30f), hi(-1e30f);
+    for (const std::uint16_t corner : t.corners)
+      lo = glm::min(lo, scratch.to[corner]), hi = glm::max(hi, scratch.to[corner]);
+    tiles_.mark(lo - kGutter, hi + kGutter, owner_name(t.chart));
   }
 }
 
@@ -550,9 +512,9 @@ template <typename Texel>
 TextureAdapter<Texel>::TextureAdapter(const AdaptationLog& log, const Image<Texel>& image,
                                       const LevelCharts& charts, std::size_t n_collapsed,
                                       const AdaptOptions& options)
-    : engine_(std::make_unique<Engine>(log, image, n_collapsed, options)) {
-  engine_->claim(charts);
-}
+    : engine_(std::make_unique<Engine>(log, image,
+                                       make_texel_owners(charts, image.width_px, image.height_px),
+                                       n_collapsed, options)) {}
 
 template <typename Texel>
 TextureAdapter<Texel>::~TextureAdapter() = default;
@@ -580,7 +542,7 @@ Image<Texel> TextureAdapter<Texel>::image() const {
 template <typename Texel>
 bool TextureAdapter<Texel>::is_inside(std::size_t texel) const {
   const auto width = static_cast<std::size_t>(engine_->width_px_);
-  return engine_->owners_[texel / width * engine_->pitch_px() + texel % width] & kInside;
+  return engine_->owners_[texel / width * engine_->pitch_px() + texel % width] & kInsideChart;
 }
 template <typename Texel>
 const AdaptCounts& TextureAdapter<Texel>::counts() const {

@@ -9,8 +9,8 @@
 
 #include "bake/atlas_cube.h"
 #include "bake/chart_checks.h"
-#include "image/texel_spans.h"
 #include "base/random.h"
+#include "image/texel_spans.h"
 #include "mesh/io.h"
 #include "mesh/surfaces.h"
 

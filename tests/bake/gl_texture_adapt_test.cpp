@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "bake/adapt_packs.h"
 #include "bake/texel_owners.h"
 #include "gl/context.h"
 #include "pm/build.h"
@@ -118,9 +119,11 @@ TEST_P(GlTextureAdapterOf, EachAdaptationIsTheEngines) {
       cpu.go_to(to), drawn.go_to(to);
       EXPECT_EQ(drawn.n_collapsed(), to);
       EXPECT_EQ(drawn.counts().n_adaptations, cpu.counts().n_adaptations);
-      Difference difference;
-      difference.add(cpu.image(), drawn.image());
-      EXPECT_LT(difference.worst, 0.05) << i << " to " << to;
+      // Gutters of charts so near to one another are either's.
+      const IndexMap a = cpu.image(), b = drawn.image();
+      for (std::size_t k = 0; k < a.pixels.size(); ++k)
+        ASSERT_LT(distance_texels(a.pixels[k], b.pixels[k]), cpu.is_inside(k) ? 0.05 : 1.0)
+            << i << " to " << to << ": " << k;
       EXPECT_EQ(n_other_owners(cpu, drawn), 0u) << i << " to " << to;
     }
 }
@@ -139,11 +142,15 @@ TEST_P(GlTextureAdapterOf, WholeRunsAgree) {
     EXPECT_LT(10000 * difference.n_over_half, difference.n) << to;
     EXPECT_LT(10000 * n_other_owners(cpu, drawn), difference.n) << to;
   }
+  // The whole way back is exact but for texels on borders, which one engine may take for gutters.
   const IndexMap start = start_map(), back = drawn.image();
-  for (std::size_t i = 0; i < start.pixels.size(); ++i)
-    if (cpu.is_inside(i)) {
-      ASSERT_EQ(start.pixels[i], back.pixels[i]) << i;
-    }
+  std::size_t n_inside = 0, n_off = 0;
+  for (std::size_t i = 0; i < start.pixels.size(); ++i) {
+    if (!cpu.is_inside(i)) continue;
+    ++n_inside, n_off += start.pixels[i] != back.pixels[i];
+    ASSERT_LT(distance_texels(start.pixels[i], back.pixels[i]), 0.5) << i;
+  }
+  EXPECT_LT(10000 * n_off, n_inside);
   EXPECT_EQ(cpu.counts().n_conflicts, 0u);
   EXPECT_LT(3 * drawn.counts().n_packs, drawn.counts().n_adaptations);
 }
@@ -226,7 +233,7 @@ TEST(GlTextureAdapter, LeavesGlAsItWas) {
 }
 
 // A chart of a square, from 4 to 12 texels, whose corners lie between texels.
-TEST(TexelOwners, AreChartsAndTwoTexelsAround) {
+TEST(TexelOwners, AreChartsAndGuttersAround) {
   const auto uv = [](float x, float y) { return glm::vec2(x / 16, 1 - y / 16); };
   LevelCharts charts;
   charts.faces = {{uv(4, 4), uv(12, 4), uv(12, 12)}, {uv(4, 4), uv(12, 12), uv(4, 12)}};
@@ -235,7 +242,8 @@ TEST(TexelOwners, AreChartsAndTwoTexelsAround) {
   for (int y = 0; y < 16; ++y)
     for (int x = 0; x < 16; ++x) {
       const int out = std::max({4 - x, x - 11, 4 - y, y - 11});
-      ASSERT_EQ(owners.at(x, y), out <= 0 ? kInsideChart | 7 : (out <= 2 ? 7 : 0)) << x << "," << y;
+      ASSERT_EQ(owners.at(x, y), out <= 0 ? kInsideChart | 7 : (out <= kGutter ? 7 : 0))
+          << x << "," << y;
     }
 }
 

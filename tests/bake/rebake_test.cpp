@@ -6,8 +6,8 @@
 
 #include "bake/atlas_cube.h"
 #include "bake/chart_map.h"
-#include "image/texel_spans.h"
 #include "base/random.h"
+#include "image/texel_spans.h"
 #include "mesh/closest_point.h"
 #include "pm/build.h"
 #include "pm/shapes.h"

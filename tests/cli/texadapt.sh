@@ -76,6 +76,9 @@ awk -v a="$(mean 16)" -v b="$(mean 8)" -v c="$(mean follows)" 'BEGIN { exit !(a 
 expect 0 "$texadapt" patch.pm patch.png --faces 200 --engine rebake -o rebaked.png
 shots coarse.ply rebaked.png rebaked
 awk -v a="$(mean rebaked)" -v b="$(mean follows)" 'BEGIN { exit !(a < b + 1.5) }' || fail "rebaked $(mean rebaked) dB"
+expect 0 "$texadapt" patch.pm patch.png --faces 200 --engine gl -o drawn.png
+"$bin/psnr" adapted.png drawn.png | awk 'NF > 2 { db = $2 } END { exit !(db > 45) }' ||
+  fail "the engines differ: $("$bin/psnr" adapted.png drawn.png)"
 # Full-edge collapses.
 expect 0 "$bin/pmesh" build patch.obj --metric mapping --placement full -o full.pm
 expect 0 "$texadapt" full.pm patch.png --faces 200 -o full.png --mesh full.obj

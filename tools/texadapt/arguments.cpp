@@ -46,10 +46,12 @@ void declare_outputs(CLI::App& app, TexadaptArguments& a) {
 
 void declare_engine(CLI::App& app, TexadaptArguments& a) {
   app.add_option("--engine", a.engine_name,
-                 "cpu | rebake (no adaptation: a new texture from the nearest points of the "
+                 "cpu | gl (by drawing) | rebake (no adaptation: a new texture from the nearest "
+                 "points of the "
                  "finest mesh, to compare with)")
-      ->check(CLI::IsMember({"cpu", "rebake"}))
+      ->check(CLI::IsMember({"cpu", "gl", "rebake"}))
       ->capture_default_str();
+  app.add_option("--gl", a.gl, "of --engine gl: osmesa | egl")->capture_default_str();
   app.add_option("--texels", a.texel_name,
                  "of the indexing map: float | half | 16 | 8 bits; or texture: adapt the texture "
                  "itself, which blurs")
@@ -125,7 +127,7 @@ void choose_format(const std::string& output, TexadaptArguments& a) {
 }
 
 void check_combinations(const TexadaptArguments& a) {
-  const bool has_map = a.engine == AdaptEngine::cpu && a.options.texel != TexelKind::texture;
+  const bool has_map = a.engine != AdaptEngine::rebake && a.options.texel != TexelKind::texture;
   if (!has_map && (!a.index_map.empty() || a.format == TextureFormat::map || !a.start.empty()))
     throw UsageError(a.engine == AdaptEngine::rebake
                          ? "--engine rebake has no indexing map"
@@ -199,6 +201,7 @@ void finish_arguments(const Tool& tool, TexadaptArguments& a) {
   else
     throw UsageError("--faces N or --levels N,N,.. says which level");
   if (a.engine_name == "rebake") a.engine = AdaptEngine::rebake;
+  if (a.engine_name == "gl") a.engine = AdaptEngine::gl;
   a.options.texel = parse_texel_kind(a.texel_name);
   a.options.adapt.n_threads = tool.common().n_threads;
   a.options.adapt.pack = !a.one_by_one;

@@ -10,7 +10,7 @@
 
 namespace viewcell {
 
-enum class AdaptEngine { cpu, rebake };
+enum class AdaptEngine { cpu, gl, rebake };
 enum class TextureFormat { png, glb, map };
 
 /// A further texture, and where its like for a level goes.
@@ -34,7 +34,8 @@ struct TexadaptArguments {
 
   // As typed; finish_arguments() makes the above of it.
   std::optional<std::size_t> faces;
-  std::string level_list, engine_name = "cpu", format_name, texel_name = "float", size, start_text;
+  std::string level_list, engine_name = "cpu", gl = "osmesa", format_name, texel_name = "float",
+                          size, start_text;
   std::vector<std::string> further_texts;
   bool bake = false, one_by_one = false;
 };

@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "common/provenance.h"
 #include "common/stopwatch.h"
+#include "gl/context.h"
 #include "image/io.h"
 #include "mesh/io.h"
 #include "mesh/texture_file.h"
@@ -96,7 +97,13 @@ Json adapt(const Tool& tool, const TexadaptArguments& a, const Inputs& in) {
   Stopwatch watch;
   const AdaptationLog log = get_log(tool, a, in.record);
   const double log_s = watch.lap_s();
-  AdaptLevels levels(in.record, log, in.texture, a.options);
+  std::optional<GlContext> context;
+  AdaptLevelsOptions options = a.options;
+  if (a.engine == AdaptEngine::gl) {
+    context.emplace(parse_gl_engine(a.gl));
+    options.gl = &context->gl();
+  }
+  AdaptLevels levels(in.record, log, in.texture, options);
   Json rows = Json::array();
   const bool has_map = a.options.texel != TexelKind::texture;
   double adapt_s = 0;
