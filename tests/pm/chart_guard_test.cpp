@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "image/image.h"
@@ -53,6 +54,17 @@ std::size_t count_shared(const TriMesh& mesh, int size_px) {
   return n;
 }
 
+// The most of all levels.
+std::size_t most_shared(const BuildResult& built, int size_px) {
+  ProgressiveMesh mesh(built.record);
+  std::size_t most = count_shared(mesh.extract(), size_px);
+  while (mesh.level() < mesh.n_splits()) {
+    mesh.refine();
+    most = std::max(most, count_shared(mesh.extract(), size_px));
+  }
+  return most;
+}
+
 TEST(ChartGuard, KeepsChartsApart) {
   for (const Placement placement : {Placement::half, Placement::full}) {
     BuildOptions options;
@@ -65,8 +77,8 @@ TEST(ChartGuard, KeepsChartsApart) {
     const BuildResult free = build_progressive_mesh(input, options);
     options.charts_apart_px = 256;
     const BuildResult apart = build_progressive_mesh(input, options);
-    EXPECT_GT(count_shared(ProgressiveMesh(free.record).extract(), 256), 500u);
-    EXPECT_EQ(count_shared(ProgressiveMesh(apart.record).extract(), 256), 0u);
+    EXPECT_GT(most_shared(free, 256), 100u);
+    EXPECT_EQ(most_shared(apart, 256), 0u);
     EXPECT_GT(apart.counts.n_refused[static_cast<std::size_t>(Refusal::overlap)], 0u);
     EXPECT_EQ(free.counts.n_refused[static_cast<std::size_t>(Refusal::overlap)], 0u);
   }
