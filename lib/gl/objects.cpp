@@ -173,9 +173,9 @@ GlVertexArray::GlVertexArray(const Gl& gl)
     : GlObject(gl, delete_vertex_array, create(gl.CreateVertexArrays)) {}
 
 void GlVertexArray::set_attribute(GLuint place, GLint n, GLenum type, GLboolean normalised,
-                                  std::size_t offset) const {
+                                  std::size_t offset, GLuint binding) const {
   gl().EnableVertexArrayAttrib(id(), place);
-  gl().VertexArrayAttribBinding(id(), place, 0);
+  gl().VertexArrayAttribBinding(id(), place, binding);
   gl().VertexArrayAttribFormat(id(), place, n, type, normalised, static_cast<GLuint>(offset));
 }
 

@@ -104,10 +104,10 @@ class GlVertexArray : public GlObject {
   GlVertexArray() = default;
   explicit GlVertexArray(const Gl& gl);
   void bind() const { gl().BindVertexArray(id()); }
-  /// Attribute `place`: n values of a type from buffer binding 0, `offset` bytes into each vertex.
+  /// Attribute `place`: n values of a type from a buffer binding, `offset` bytes into each vertex.
   /// normalised: integers become [-1, 1] or [0, 1].
-  void set_attribute(GLuint place, GLint n, GLenum type, GLboolean normalised,
-                     std::size_t offset) const;
+  void set_attribute(GLuint place, GLint n, GLenum type, GLboolean normalised, std::size_t offset,
+                     GLuint binding = 0) const;
 };
 
 }  // namespace viewcell

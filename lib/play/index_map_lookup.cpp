@@ -10,8 +10,11 @@ namespace viewcell {
 //               below_a   below_b           +--> u
 std::string index_map_glsl() {
   return "const float jump_texels = " + std::to_string(kJumpTexels) + ";\n" + R"(
-layout(binding = 0) uniform sampler2D base_texture;
 layout(binding = 1) uniform sampler2D index_map;
+
+struct Place {
+  vec2 uv, dx, dy;
+};
 
 // The place that a texel holds, in texels of the map; any texel: the map is periodic.
 vec2 map_at(ivec2 texel) {
@@ -28,7 +31,7 @@ bool jumps(vec2 a, vec2 b, vec2 c, vec2 d) {
   return any(lessThan(step_here, lo)) || any(greaterThan(step_here, hi));
 }
 
-vec3 indexed_color(vec2 uv) {
+Place indexed_place(vec2 uv) {
   vec2 size = vec2(textureSize(index_map, 0));
   vec2 uv_dx = dFdx(uv), uv_dy = dFdy(uv);
   vec2 at = uv * size - 0.5;
@@ -45,13 +48,12 @@ vec3 indexed_color(vec2 uv) {
   if (jumps(r0[0], a, b, r0[3]) || jumps(r1[0], c, d, r1[3]) ||
       jumps(below_a, a, c, above_c) || jumps(below_b, b, d, above_d)) {
     vec2 nearest = f.x < 0.5 ? (f.y < 0.5 ? a : c) : (f.y < 0.5 ? b : d);
-    return textureGrad(base_texture, nearest / size, uv_dx, uv_dy).rgb;
+    return Place(nearest / size, uv_dx, uv_dy);
   }
   vec2 place = mix(mix(a, b, f.x), mix(c, d, f.x), f.y);
   // A step of a texel in the map, in texels of places; so in uv over uv, but for the sides' ratio.
   mat2 jacobian = mat2(mix(b - a, d - c, f.y), mix(c - a, d - b, f.x));
-  return textureGrad(base_texture, place / size, jacobian * (uv_dx * size) / size,
-                     jacobian * (uv_dy * size) / size).rgb;
+  return Place(place / size, jacobian * (uv_dx * size) / size, jacobian * (uv_dy * size) / size);
 }
 )";
 }

@@ -5,10 +5,10 @@
 
 namespace viewcell {
 
-/// Defines `vec3 indexed_color(vec2 uv)`: the map (sampler2D index_map, binding 1, two channels,
-/// rows from v = 0 up) tells where to look at sampler2D base_texture (binding 0), whose own
-/// filtering and mipmaps serve. Follows: [Chen06 3.2.4], whose texels hold places of the original
-/// texture.
+/// Defines `Place indexed_place(vec2 uv)`, with a Place's uv and its derivatives dx and dy on the
+/// screen: the map (sampler2D index_map, binding 1, two channels, rows from v = 0 up) tells where
+/// to look at other textures, whose own filtering and mipmaps serve (textureGrad). Follows:
+/// [Chen06 3.2.4], whose texels hold places of the original texture.
 ///
 /// Between texels places are interpolated bilinearly. Beyond the map's sides it goes on by the
 /// texture's period, M(p + n) = M(p) + n for whole n: so the identity stays the identity where a

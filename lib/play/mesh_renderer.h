@@ -4,6 +4,7 @@
 #include "gl/framebuffer.h"
 #include "gl/objects.h"
 #include "image/index_map.h"
+#include "image/normal_code.h"
 #include "play/mesh_views.h"
 #include "scene/lighting.h"
 
@@ -25,6 +26,7 @@ struct MeshStyle {
   /// lit side. False: it stays with the mesh, as in a scene.
   bool light_follows = true;
   NormalSource normals = NormalSource::mesh;
+  NormalMapY normal_map_y = NormalMapY::up;
   bool flip_v = false;         ///< v = 0 is the texture's top row, not the bottom one
   bool wireframe = false;      ///< edges over the surface, a pixel wide
   glm::vec3 base_color{0.5f};  ///< linear; where there is neither texture nor vertex colour
@@ -34,16 +36,18 @@ struct MeshStyle {
 /// The largest size_px * samples.
 inline constexpr int kMostSamplesPerSide = 8192;
 
-/// Holds the mesh in GL memory (108 bytes a triangle). Only the thread on which the context is
-/// current may use it. Relies on, and leaves, the state of GlContext.
+/// Holds the mesh in GL memory (108 bytes a triangle, 180 with a normal map). Only the thread on
+/// which the context is current may use it. Relies on, and leaves, the state of GlContext.
 class MeshRenderer {
  public:
   /// texture: sRGB, taken as opaque, on all triangles; null: none, and the mesh's colours are drawn
   /// if it has some. Needs texture coordinates. index_map: these look it up, and what it holds
-  /// looks up the texture (play/index_map_lookup.h); needs a texture. gl must outlive this; nothing
-  /// else need. Throws MachineError when GL memory runs out.
+  /// looks up the textures (play/index_map_lookup.h); needs one. normal_map: linear, in tangent
+  /// space (image/normal_code.h, mesh/tangents.h), over the mesh's normals; with style.lit alone.
+  /// gl must outlive this; nothing else need. Throws MachineError when GL memory runs out.
   MeshRenderer(const Gl& gl, const TriMesh& mesh, const MeshFrame& frame, const ImageRgba8* texture,
-               const MeshStyle& style, const IndexMap* index_map = nullptr);
+               const MeshStyle& style, const IndexMap* index_map = nullptr,
+               const ImageRgba8* normal_map = nullptr);
 
   /// A view in frame space (make_views). Both sides of a triangle are drawn, the back lit as a
   /// front that faces the same way: simplified meshes are often open. Alpha is 255 where any sample
@@ -55,8 +59,8 @@ class MeshRenderer {
   MeshStyle style_;
   GlFramebuffer target_;
   GlProgram program_;
-  GlTexture texture_, index_map_;
-  GlBuffer vertices_;
+  GlTexture texture_, index_map_, normal_map_;
+  GlBuffer vertices_, mapped_vertices_;
   GlVertexArray array_;
   GLsizei n_vertices_ = 0;
 };

@@ -138,6 +138,7 @@ Json format_style(const MeshStyle& style) {
           {"lit", style.lit},
           {"light_follows", style.light_follows},
           {"normals", name_of(style.normals)},
+          {"normal_map_y", style.normal_map_y == NormalMapY::up ? "up" : "down"},
           {"flip_v", style.flip_v},
           {"wireframe", style.wireframe}};
 }

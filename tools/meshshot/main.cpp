@@ -20,9 +20,9 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Options {
-  std::string mesh_file, texture, map_file, like_file, box;
-  std::string mesh_hash, texture_hash, map_hash, like_hash;  // once they are read
-  std::string up = "auto", normals = "mesh", gl = "osmesa", sheet;
+  std::string mesh_file, texture, normal_map, map_file, like_file, box;
+  std::string mesh_hash, texture_hash, normal_map_hash, map_hash, like_hash;  // once they are read
+  std::string normal_map_y = "up", up = "auto", normals = "mesh", gl = "osmesa", sheet;
   bool unlit = false, fixed_light = false, no_sheet = false;
   MeshStyle style;
   MeshShotOptions shots;
@@ -31,16 +31,24 @@ struct Options {
 void declare(Tool& tool, Options& o) {
   CLI::App& app = tool.app();
   app.add_option("MESH", o.mesh_file, "OBJ, PLY (.gz), OFF, STL, GLB, glTF or 3DS")->required();
-  CLI::Option* texture = app.add_option(
+  app.add_option(
       "--texture", o.texture,
       "picture for the mesh's texture coordinates, repeated, filtered with mipmaps: a file, a "
       "GLB's "
       "base colour, or model.glb#normal (also #emissive, #occlusion, #metallicRoughness); textures "
       "that MESH names or holds are not read unless they are given here");
-  app.add_option("--index-map", o.map_file,
-                 "indexing map (.exr, .tif) that the mesh's texture coordinates look up; what it "
-                 "holds looks up --texture")
-      ->needs(texture);
+  CLI::Option* normal_map = app.add_option(
+      "--normal-map", o.normal_map,
+      "tangent-space normal map for the same coordinates, named as a texture is: lights relief");
+  app.add_option("--normal-map-y", o.normal_map_y,
+                 "where its green points: up (OpenGL, glTF) | down (Direct3D)")
+      ->capture_default_str()
+      ->needs(normal_map)
+      ->check(CLI::IsMember({"up", "down"}));
+  app.add_option(
+      "--index-map", o.map_file,
+      "indexing map (.exr, .tif) that the mesh's texture coordinates look up; what it holds looks "
+      "up --texture and --normal-map");
   app.add_flag("--flip-v", o.style.flip_v,
                "v = 0 is the texture's top row: for files whose coordinates run that way");
   app.add_option("--views", o.shots.n_views, "number of views, spread evenly over the sphere")
@@ -63,7 +71,7 @@ void declare(Tool& tool, Options& o) {
                  "--like, by that file)")
       ->capture_default_str()
       ->check(CLI::IsMember({"x", "y", "z", "auto"}));
-  app.add_flag("--unlit", o.unlit, "the surface's colour as it is");
+  app.add_flag("--unlit", o.unlit, "the surface's colour as it is")->excludes(normal_map);
   app.add_flag("--fixed-light", o.fixed_light,
                "the light stays with the mesh and does not turn with the view");
   app.add_option(
@@ -88,16 +96,24 @@ MeshFrame choose_frame(Options& o, const TriMesh& mesh) {
 }
 
 struct Textures {
-  std::optional<ImageRgba8> color;
+  std::optional<ImageRgba8> color, normal_map;
   std::optional<IndexMap> index_map;
 };
 
+template <typename T>
+const T* address_of(const std::optional<T>& value) {
+  return value ? &*value : nullptr;
+}
+
 Textures read_textures(Options& o, const TriMesh& mesh) {
   Textures textures;
-  if (o.texture.empty()) return textures;
+  if (o.texture.empty() && o.normal_map.empty()) return textures;
   if (mesh.texcoords.empty())
-    throw InputError(o.mesh_file, "", "has no texture coordinates, which --texture needs");
-  textures.color = read_texture(o.texture, &o.texture_hash);
+    throw InputError(o.mesh_file, "",
+                     std::string("has no texture coordinates, which --") +
+                         (o.texture.empty() ? "normal-map" : "texture") + " needs");
+  if (!o.texture.empty()) textures.color = read_texture(o.texture, &o.texture_hash);
+  if (!o.normal_map.empty()) textures.normal_map = read_texture(o.normal_map, &o.normal_map_hash);
   if (!o.map_file.empty()) textures.index_map = read_index_map(o.map_file, &o.map_hash);
   return textures;
 }
@@ -107,11 +123,14 @@ void settle_options(const Tool& tool, Options& o) {
   if (o.style.size_px > kMostSamplesPerSide / o.style.samples)
     throw UsageError("--size times --samples is above " + std::to_string(kMostSamplesPerSide));
   if (tool.common().output == "-") throw UsageError("-o names a folder");
+  if (!o.map_file.empty() && o.texture.empty() && o.normal_map.empty())
+    throw UsageError("--index-map requires --texture or --normal-map");
   if (!o.box.empty()) parse_box(o.box);
   parse_gl_engine(o.gl);
   o.style.lit = !o.unlit;
   o.style.light_follows = !o.fixed_light;
   o.style.normals = parse_normal_source(o.normals);
+  o.style.normal_map_y = o.normal_map_y == "up" ? NormalMapY::up : NormalMapY::down;
   o.shots.folder = tool.common().output;
   o.shots.n_threads = tool.common().n_threads;
   if (!o.no_sheet)
@@ -120,6 +139,7 @@ void settle_options(const Tool& tool, Options& o) {
   check_ending({"--sheet", sheet}, {".png"}, "a PNG");
   check_files({{"the mesh that is read", o.mesh_file},
                {"the texture that is read", texture_file(o.texture).string()},
+               {"the normal map that is read", texture_file(o.normal_map).string()},
                {"the indexing map that is read", o.map_file},
                {"the mesh of --like", o.like_file}},
               {{"--sheet", sheet}, {"--json", tool.common().json_file}});
@@ -133,6 +153,7 @@ Json format_provenance(const Tool& tool, const Options& o) {
   return make_provenance(tool, format_style(o.style),
                          {{"mesh", o.mesh_hash},
                           {"texture", hash(o.texture_hash)},
+                          {"normal_map", hash(o.normal_map_hash)},
                           {"index_map", hash(o.map_hash)},
                           {"like", hash(o.like_hash)}});
 }
@@ -145,9 +166,8 @@ int run(const Tool& tool, Options& o) {
   const Textures textures = read_textures(o, mesh);
   const double read_s = watch.lap_s();
   const GlContext context(parse_gl_engine(o.gl));
-  const auto& [color, index_map] = textures;
-  const MeshRenderer renderer(context.gl(), mesh, frame, color ? &*color : nullptr, o.style,
-                              index_map ? &*index_map : nullptr);
+  const MeshRenderer renderer(context.gl(), mesh, frame, address_of(textures.color), o.style,
+                              address_of(textures.index_map), address_of(textures.normal_map));
   const double upload_s = watch.lap_s();
   o.shots.title = fs::path(o.mesh_file).filename().string() + ", " +
                   std::to_string(mesh.triangles.size()) + " triangles";
