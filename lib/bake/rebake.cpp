@@ -7,6 +7,7 @@
 
 #include "bake/chart_map.h"
 #include "bake/gutter.h"
+#include "bake/triangle_map.h"
 #include "base/error.h"
 #include "image/texel_spans.h"
 #include "mesh/closest_point.h"
@@ -15,9 +16,6 @@
 namespace viewcell {
 namespace {
 
-// Bilinear fetches at a point of a triangle read texels less than sqrt(2) away from it.
-constexpr double kRimTexels = 1.5;
-
 // How much farther than the nearest point one on the facing side may be, over the diagonal of the
 // original: more than sheets are thick, less than what is opposite.
 constexpr double kSheetShare = 0.01;
@@ -25,82 +23,11 @@ constexpr double kSheetShare = 0.01;
 // Surface points as near as rounding tells, and corner weights that are 0, over the diagonal and 1.
 constexpr double kSameDistance = 1e-7, kZeroWeight = 1e-6;
 
-using Corners2 = std::array<glm::dvec2, 3>;
 using Corners3 = std::array<glm::dvec3, 3>;
 
 Corners3 corners_of(const TriMesh& mesh, std::size_t t) {
   const auto& [a, b, c] = mesh.triangles[t];
   return {mesh.positions[a], mesh.positions[b], mesh.positions[c]};
-}
-
-Corners2 texels_of(const TriMesh& mesh, std::size_t t, int width_px, int height_px) {
-  Corners2 out;
-  for (std::size_t k = 0; k < 3; ++k)
-    out[k] = to_texels(mesh.texcoords[3 * t + k], width_px, height_px);
-  return out;
-}
-
-template <typename Point>
-Point mix(const std::array<Point, 3>& at, const glm::dvec3& w) {
-  return w.x * at[0] + w.y * at[1] + w.z * at[2];
-}
-
-// Weights of the corners at the point of a triangle that is nearest to p.
-glm::dvec3 nearest_weights(const Corners2& at, const glm::dvec2& p) {
-  const glm::dvec3 a(at[0], 0), b(at[1], 0), c(at[2], 0);
-  return corner_weights(closest_point_on_triangle(glm::dvec3(p, 0), a, b, c), a, b, c);
-}
-
-// ---- Which triangle a texel shows ---------------------------------------------------------------
-
-// Per texel 1 + triangle, or 0.
-using TriangleMap = Image<std::uint32_t>;
-
-void draw_insides(const TriMesh& mesh, TriangleMap& map) {
-  for (std::size_t t = mesh.triangles.size(); t-- > 0;) {
-    const Corners2 p = texels_of(mesh, t, map.width_px, map.height_px);
-    for_each_span(p, map.width_px, map.height_px, [&](int x0, int x1, int y) {
-      std::fill(&map.at(x0, y), &map.at(x0, y) + (x1 - x0), static_cast<std::uint32_t>(t + 1));
-    });
-  }
-}
-
-struct TexelBox {
-  int x0, y0, x1, y1;  // ends excluded
-};
-
-// Texels of the image within the rim of a triangle; empty when it is not finite.
-TexelBox rim_box(const Corners2& p, int width_px, int height_px) {
-  const glm::dvec2 lo = glm::min(glm::min(p[0], p[1]), p[2]) - kRimTexels;
-  const glm::dvec2 hi = glm::max(glm::max(p[0], p[1]), p[2]) + kRimTexels;
-  if (!std::isfinite(lo.x + lo.y + hi.x + hi.y)) return {0, 0, 0, 0};
-  const auto clamp = [](double x, int size) {
-    return static_cast<int>(std::clamp(x, 0.0, static_cast<double>(size)));
-  };
-  return {clamp(std::ceil(lo.x), width_px), clamp(std::ceil(lo.y), height_px),
-          clamp(std::floor(hi.x) + 1, width_px), clamp(std::floor(hi.y) + 1, height_px)};
-}
-
-// Free texels within the rim of triangles get the nearest of these, of several the lowest.
-void draw_rims(const TriMesh& mesh, TriangleMap& map) {
-  constexpr float kFar = 1e30f;
-  Image<float> distances(map.width_px, map.height_px, kFar);  // squared
-  for (std::size_t i = 0; i < map.pixels.size(); ++i)
-    if (map.pixels[i] != 0) distances.pixels[i] = -1;
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    const Corners2 p = texels_of(mesh, t, map.width_px, map.height_px);
-    const TexelBox box = rim_box(p, map.width_px, map.height_px);
-    for (int y = box.y0; y < box.y1; ++y)
-      for (int x = box.x0; x < box.x1; ++x) {
-        float& best = distances.at(x, y);
-        if (best < 0) continue;
-        const glm::dvec2 off = mix(p, nearest_weights(p, {x, y})) - glm::dvec2(x, y);
-        const auto squared = static_cast<float>(glm::dot(off, off));
-        if (squared > kRimTexels * kRimTexels || squared >= best) continue;
-        best = squared;
-        map.at(x, y) = static_cast<std::uint32_t>(t + 1);
-      }
-  }
 }
 
 // ---- What the original shows -------------------------------------------------------------------
