@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <tuple>
 
 #include "base/error.h"
 #include "common/files.h"
@@ -35,8 +36,17 @@ void declare_outputs(CLI::App& app, TexadaptArguments& a) {
   app.add_option("--also", a.further_texts,
                  "IMAGE=OUT.png: a further texture with the same coordinates, through the same "
                  "indexing map; may be repeated");
-  app.add_option("--normal-map", a.normal_map,
-                 "a normal map that goes the same way, for --format glb");
+  CLI::Option* normal_map = app.add_option(
+      "--normal-map", a.normal_map_text,
+      "IMAGE=OUT.png: a tangent-space normal map with the same coordinates, made anew for the "
+      "level's own tangents and normals, which its mesh then has; flat=OUT.png: none, so that the "
+      "level is shaded as the finest mesh is; for --format glb, IMAGE or flat alone");
+  app.add_option("--normal-map-y", a.normal_map_y,
+                 "where the green of IMAGE points: up (OpenGL, glTF) | down (Direct3D); what is "
+                 "written points up")
+      ->needs(normal_map)
+      ->check(CLI::IsMember({"up", "down"}))
+      ->capture_default_str();
   app.add_option("--format", a.format_name, "png | glb, with the mesh (default: as -o ends)")
       ->check(CLI::IsMember({"png", "glb"}));
   app.add_flag("--bake", a.bake,
@@ -101,6 +111,12 @@ void parse_pairs(TexadaptArguments& a) {
     const auto [from, to] = split_pair("--also", text);
     a.further.push_back({from, to});
   }
+  a.has_normal_map = !a.normal_map_text.empty();
+  a.normal_map.from = a.normal_map_text;
+  if (a.normal_map_text.find('=') != std::string::npos)
+    std::tie(a.normal_map.from, a.normal_map.to) = split_pair("--normal-map", a.normal_map_text);
+  if (a.normal_map.from == "flat") a.normal_map.from.clear();
+  if (a.normal_map_y == "down") a.normal_map_options.y = NormalMapY::down;
   if (a.start_text.empty()) return;
   const auto [faces, map] = split_pair("--from", a.start_text);
   if (!parse_whole(faces, 1, kMostFaces, a.options.start_faces))
@@ -132,12 +148,16 @@ void check_combinations(const TexadaptArguments& a) {
     throw UsageError(a.engine == AdaptEngine::rebake
                          ? "--engine rebake has no indexing map"
                          : "--texels texture adapts the texture and has no indexing map");
-  if (!has_map && (!a.further.empty() || !a.normal_map.empty()) && a.engine != AdaptEngine::rebake)
-    throw UsageError("--texels texture adapts one texture; --also and --normal-map want a map");
+  if (!has_map && a.has_normal_map)
+    throw UsageError(
+        "--normal-map wants an indexing map, which --engine rebake and --texels "
+        "texture have not");
+  if (!has_map && !a.further.empty() && a.engine != AdaptEngine::rebake)
+    throw UsageError("--texels texture adapts one texture; --also wants an indexing map");
   if (a.engine == AdaptEngine::rebake && (!a.log.empty() || !a.replay.empty()))
     throw UsageError("--engine rebake knows no adaptations: no --log, no --replay");
-  if (!a.normal_map.empty() && a.format != TextureFormat::glb)
-    throw UsageError("--normal-map is for --format glb; elsewhere: --also NORMAL.png=OUT.png");
+  if (a.has_normal_map && a.normal_map.to.empty() && a.format != TextureFormat::glb)
+    throw UsageError("--normal-map IMAGE alone is for --format glb; elsewhere: IMAGE=OUT.png");
   if (a.options.texel == TexelKind::texture && !a.size.empty())
     throw UsageError("--size is of an indexing map; --texels texture has none");
   if (a.format == TextureFormat::glb && !a.mesh.empty())
@@ -149,7 +169,7 @@ void check_all_files(const Tool& tool, const TexadaptArguments& a) {
   std::vector<NamedFile> inputs{
       {"the progressive mesh that is read", a.pm},
       {"the texture that is read", texture_file(a.texture).string()},
-      {"the normal map that is read", texture_file(a.normal_map).string()},
+      {"the normal map that is read", texture_file(a.normal_map.from).string()},
       {"the log that is read", a.replay},
       {"the map that is read", a.start}};
   std::vector<NamedFile> outputs{{"--log", a.log}, {"--json", common.json_file}};
@@ -159,6 +179,7 @@ void check_all_files(const Tool& tool, const TexadaptArguments& a) {
     outputs.push_back({"-o", a.name_at(common.output, level)});
     outputs.push_back({"--mesh", a.name_at(a.mesh, level)});
     outputs.push_back({"--index-map", a.name_at(a.index_map, level)});
+    outputs.push_back({"--normal-map", a.name_at(a.normal_map.to, level)});
     for (const FurtherTexture& f : a.further) outputs.push_back({"--also", a.name_at(f.to, level)});
   }
   check_files(inputs, outputs);
@@ -166,6 +187,7 @@ void check_all_files(const Tool& tool, const TexadaptArguments& a) {
   if (!a.index_map.empty())
     check_ending({"--index-map", a.index_map}, {".exr", ".tif", ".tiff"}, "an indexing map");
   if (!a.log.empty()) check_ending({"--log", a.log}, {".adapt"}, "a log of adaptations");
+  if (!a.normal_map.to.empty()) check_ending({"--normal-map", a.normal_map.to}, {".png"}, "a PNG");
   for (const FurtherTexture& f : a.further) check_ending({"--also", f.to}, {".png"}, "a PNG");
 }
 
@@ -203,6 +225,7 @@ void finish_arguments(const Tool& tool, TexadaptArguments& a) {
   if (a.engine_name == "rebake") a.engine = AdaptEngine::rebake;
   if (a.engine_name == "gl") a.engine = AdaptEngine::gl;
   a.options.texel = parse_texel_kind(a.texel_name);
+  a.normal_map_options.n_threads = tool.common().n_threads;
   a.options.adapt.n_threads = tool.common().n_threads;
   a.options.adapt.pack = !a.one_by_one;
   if (!a.size.empty()) parse_size(a.size, a.options);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "bake/adapt_levels.h"
+#include "bake/normal_map.h"
 #include "common/tool.h"
 
 namespace viewcell {
@@ -22,7 +23,10 @@ struct TexadaptArguments {
   std::string pm, texture;
   std::vector<std::size_t> levels;  ///< faces
   bool names_levels = false;        ///< files have the level's faces in their names
-  std::string mesh, index_map, normal_map, log, replay, start;
+  std::string mesh, index_map, log, replay, start;
+  bool has_normal_map = false;
+  FurtherTexture normal_map;  ///< from "": the finest mesh's shading; to "": into the GLB alone
+  NormalMapOptions normal_map_options;
   std::vector<FurtherTexture> further;
   AdaptEngine engine = AdaptEngine::cpu;
   TextureFormat format = TextureFormat::png;
@@ -36,6 +40,7 @@ struct TexadaptArguments {
   std::optional<std::size_t> faces;
   std::string level_list, engine_name = "cpu", gl = "osmesa", format_name, texel_name = "float",
                           size, start_text;
+  std::string normal_map_text, normal_map_y = "up";
   std::vector<std::string> further_texts;
   bool bake = false, one_by_one = false;
 };

@@ -35,7 +35,7 @@ Inputs read_inputs(TexadaptArguments& a) {
     throw InputError(a.pm, "", "has no texture coordinates, so no texture can follow it");
   in.texture = read_texture(a.texture);
   for (const FurtherTexture& f : a.further) in.further.push_back(read_texture(f.from));
-  if (!a.normal_map.empty()) in.normal_map = read_texture(a.normal_map);
+  if (!a.normal_map.from.empty()) in.normal_map = read_texture(a.normal_map.from);
   if (!a.start.empty()) a.options.start = read_index_map(a.start);
   AdaptLevelsOptions& o = a.options;
   if (o.width_px == 0) o.width_px = o.start ? o.start->width_px : in.texture.width_px;
@@ -64,9 +64,11 @@ class LevelWriter {
   LevelWriter(const Tool& tool, const TexadaptArguments& a, const Inputs& in)
       : tool_(tool), a_(a), in_(in) {}
 
-  /// bake(texture) makes what the level shows of a texture; map: null where there is none.
+  /// bake(texture) makes what the level shows of a texture; map, normal_map: null where there is
+  /// none.
   template <typename Bake>
-  void write(std::size_t level, const TriMesh& mesh, const IndexMap* map, Bake&& bake) const {
+  void write(std::size_t level, const TriMesh& mesh, const IndexMap* map,
+             const ImageRgba8* normal_map, Bake&& bake) const {
     const std::string output = a_.name_at(tool_.common().output, level);
     const std::vector<std::string> comments{std::string("made by texadapt ") + version()};
     if (a_.format == TextureFormat::map)
@@ -74,14 +76,16 @@ class LevelWriter {
     else if (a_.format == TextureFormat::png)
       write_png(output, bake(in_.texture));
     else
-      write_glb(output, mesh,
-                {encode_png(bake(in_.texture)),
-                 in_.normal_map.empty() ? "" : encode_png(bake(in_.normal_map)), comments[0]});
+      write_glb(
+          output, mesh,
+          {encode_png(bake(in_.texture)), normal_map ? encode_png(*normal_map) : "", comments[0]});
     if (const std::string file = a_.name_at(a_.mesh, level); file.ends_with(".obj"))
       write_obj(file, mesh, {comments, "", ""});
     else if (!file.empty())
       write_ply(file, mesh, comments);
     if (!a_.index_map.empty()) write_index_map(a_.name_at(a_.index_map, level), *map);
+    if (const std::string file = a_.name_at(a_.normal_map.to, level); !file.empty())
+      write_png(file, *normal_map);
     for (std::size_t i = 0; i < in_.further.size(); ++i)
       write_png(a_.name_at(a_.further[i].to, level), bake(in_.further[i]));
   }
@@ -91,6 +95,22 @@ class LevelWriter {
   const TexadaptArguments& a_;
   const Inputs& in_;
 };
+
+// The level's mesh. Beside a normal map it has normals: without, viewers make some of their own,
+// and the map is relative to these.
+TriMesh extract_level(const AdaptLevels& levels, const TexadaptArguments& a) {
+  TriMesh mesh = levels.mesh().extract();
+  if (a.has_normal_map && mesh.normals.empty()) mesh.normals = make_vertex_normals(mesh);
+  return mesh;
+}
+
+BakedNormalMap bake_normals(const AdaptLevels& levels, const TexadaptArguments& a, const Inputs& in,
+                            const TriMesh& mesh, const IndexMap& map) {
+  if (!a.has_normal_map) return {};
+  return bake_normal_map(map, in.normal_map.empty() ? nullptr : &in.normal_map,
+                         {in.finest, levels.finest().charts}, {mesh, levels.charts().charts},
+                         a.normal_map_options);
+}
 
 Json adapt(const Tool& tool, const TexadaptArguments& a, const Inputs& in) {
   const LevelWriter writer(tool, a, in);
@@ -114,8 +134,10 @@ Json adapt(const Tool& tool, const TexadaptArguments& a, const Inputs& in) {
     const double level_s = watch.lap_s();
     adapt_s += level_s;
     const IndexMap map = has_map ? levels.map() : IndexMap();
+    const TriMesh mesh = extract_level(levels, a);
+    const BakedNormalMap normals = bake_normals(levels, a, in, mesh, map);
     writer.write(
-        level, levels.mesh().extract(), has_map ? &map : nullptr,
+        level, mesh, has_map ? &map : nullptr, a.has_normal_map ? &normals.image : nullptr,
         [&](const ImageRgba8& texture) { return has_map ? levels.bake(texture) : levels.bake(); });
     const AdaptCounts& now = levels.counts();
     rows.push_back({{"faces", levels.mesh().n_faces()},
@@ -124,6 +146,8 @@ Json adapt(const Tool& tool, const TexadaptArguments& a, const Inputs& in) {
                     {"packs", now.n_packs - before.n_packs},
                     {"texels", now.n_texels - before.n_texels},
                     {"adapt_s", level_s}});
+    if (a.has_normal_map)
+      rows.back()["normal_map"] = {{"texels", normals.n_texels}, {"clamped", normals.n_clamped}};
     tool.say(std::to_string(levels.mesh().n_faces()) +
              " faces: " + std::to_string(now.n_adaptations - before.n_adaptations) +
              " adaptations in " + std::to_string(now.n_packs - before.n_packs) + " packs");
@@ -156,7 +180,7 @@ Json rebake(const Tool& tool, const TexadaptArguments& a, const Inputs& in) {
     mesh.set_faces(level);
     const TriMesh coarse = mesh.extract();
     watch.lap_s();
-    writer.write(level, coarse, nullptr, [&](const ImageRgba8& texture) {
+    writer.write(level, coarse, nullptr, nullptr, [&](const ImageRgba8& texture) {
       return rebake_texture(coarse, in.finest, texture,
                             {.width_px = a.options.width_px,
                              .height_px = a.options.height_px,
