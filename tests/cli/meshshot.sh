@@ -105,6 +105,21 @@ diff -r t-identity t-pipe || fail "--index-map - gives other pictures"
 expect 0 "${indexed[@]}" corner.tif -o t-corner --no-sheet
 expect 5 "$bin/psnr" t-glb t-corner --no-ssim --fail-below 40
 
+# A normal map: another picture, named by the report, the same from a pipe and through the identity.
+lit=("$bin/meshshot" square.glb --size 64 --views 1 --no-sheet)
+expect 0 "${lit[@]}" -o n-none --json "$log/n.json"
+grep -q '"normal_map": null' "$log/n.json" || fail "a normal map that was not given"
+expect 0 "${lit[@]}" --normal-map gray.png -o n-up --json "$log/n.json"
+grep -q '"normal_map": "[0-9a-f]\{16\}"' "$log/n.json" || fail "the report does not name the normal map"
+"${lit[@]}" --normal-map - --normal-map-y up -o n-pipe -q -j 1 <gray.png || fail "--normal-map -"
+diff -r n-up n-pipe || fail "--normal-map - gives other pictures"
+expect 0 "${lit[@]}" --normal-map gray.png --normal-map-y down -o n-down --json "$log/n.json"
+grep -q '"normal_map_y": "down"' "$log/n.json" || fail "the report does not say where green points"
+diff -qr n-up n-down >/dev/null && fail "--normal-map-y changes nothing"
+diff -qr n-up n-none >/dev/null && fail "--normal-map changes nothing"
+expect 0 "${lit[@]}" --normal-map gray.png --index-map identity.tif -o n-identity
+expect 0 "$bin/psnr" n-up n-identity --no-ssim --fail-below 48
+
 # Misuse.
 fault 2 "--output is required" "$bin/meshshot" ball.off
 fault 2 "-o names a folder" "${shot[@]}" ball.off -o -
@@ -116,6 +131,8 @@ fault 2 "--box" "${shot[@]}" ball.off --box 0,0,0:1,1,1 --like ball.off -o x
 fault 2 "normals 'smooth' are unknown" "${shot[@]}" ball.off --normals smooth -o x
 fault 2 "GL engine 'glx'" "${shot[@]}" ball.off --gl glx -o x
 fault 2 "--index-map requires --texture" "${shot[@]}" square.glb --index-map identity.tif -o x
+fault 2 "--normal-map" "${lit[@]}" --normal-map gray.png --unlit -o x
+fault 2 "--normal-map" "${lit[@]}" --normal-map-y down -o x
 fault 2 "standard input" "${shot[@]}" square.glb --texture - --index-map - -o x
 fault 2 "--json" "${shot[@]}" square.obj --texture square.glb#normal --json square.glb -o x
 
@@ -123,6 +140,8 @@ fault 2 "--json" "${shot[@]}" square.obj --texture square.glb#normal --json squa
 fault 1 "missing.off" "${shot[@]}" missing.off -o x
 fault 1 "missing.off" "${shot[@]}" ball.off --like missing.off -o x
 fault 1 "ball.off: has no texture coordinates" "${shot[@]}" ball.off --texture gray.png -o x
+fault 1 "ball.off: has no texture coordinates" "${shot[@]}" ball.off --normal-map gray.png -o x
+fault 1 "missing.png" "${lit[@]}" --normal-map missing.png -o x
 fault 1 "missing.png" "${shot[@]}" square.obj --texture missing.png -o x
 fault 1 "ball.off: is not a PNG" "${shot[@]}" square.obj --texture ball.off -o x
 head -c 60 gray.png >cut.png
@@ -143,6 +162,6 @@ fault 1 "--box: has no extent" "${shot[@]}" ball.off --box 1,1,1:1,1,1 -o x
 fault 1 "ball.off" "${shot[@]}" ball.off -o ball.off
 # A folder with views that would stay is refused before anything is read.
 fault 1 "a: has 'view-02.png', which is none of the 2" "$bin/meshshot" ball.off --views 2 -o a
-[ "$n_faults" -eq 29 ] || fail "$n_faults faults typed"
+[ "$n_faults" -eq 33 ] || fail "$n_faults faults typed"
 [ -z "$(find . -name '.tmp-*')" ] || fail "temporaries are left"
 echo "meshshot.sh: all well"

@@ -59,12 +59,25 @@ expect 0 "$texadapt" patch.pm patch.png --replay patch.adapt --from 200=map.exr 
 cmp -s back.png same.png || fail "--from 200 up to the finest level"
 
 # GLB: the mesh with its texture; further textures; coarse texels; the texture itself; rebaked.
-expect 0 "$texadapt" patch.pm patch.png --levels 200 --normal-map patch.png -o g.glb
+expect 0 "$texadapt" patch.pm patch.png --levels 200 --normal-map patch.png=n.png -o g.glb --json report.json
+grep -q '"clamped": ' report.json || fail "no clamped normals in the report"
 shots g-200.glb g-200.glb glb
+awk -v a="$(mean glb)" -v b="$(mean follows)" 'BEGIN { exit !(a > b - 0.01 && a < b + 0.01) }' || fail "GLB"
 shots g-200.glb "g-200.glb#normal" normal
-for which in glb normal; do
-  awk -v a="$(mean $which)" -v b="$(mean follows)" 'BEGIN { exit !(a > b - 0.01 && a < b + 0.01) }' || fail "GLB: $which"
-done
+shots coarse.ply n-200.png normal-png
+expect 0 "$bin/psnr" normal normal-png --no-ssim --fail-below 60
+# With a flat normal map the level is shaded nearly as the finest mesh is; the same bytes.
+expect 0 "$texadapt" patch.pm patch.png --faces 200 --normal-map flat=flat.png --mesh normals.ply -o x.png -j1
+expect 0 "$texadapt" patch.pm patch.png --faces 200 --normal-map flat=flat2.png -o x.png -j2
+cmp -s flat.png flat2.png || fail "other normals on two threads"
+rm x.png
+lit() { expect 0 "$bin/meshshot" "$1" --fixed-light --views 4 --size 128 --like patch.obj --no-sheet -q "${@:2}"; }
+lit patch.obj -o lit-original
+lit normals.ply -o lit-own
+lit normals.ply --normal-map flat.png -o lit-flat
+lit_mean() { "$bin/psnr" lit-original "$1" | awk '$1 == "mean" { print $3 }'; }
+awk -v with="$(lit_mean lit-flat)" -v without="$(lit_mean lit-own)" 'BEGIN { exit !(with > without + 0.5) }' ||
+  fail "lit: $(lit_mean lit-flat) dB with a flat normal map, $(lit_mean lit-own) without"
 expect 0 "$texadapt" patch.pm patch.png --faces 200 --also patch.png=also.png --size 256x256 -o x256.png
 cmp -s also.png x256.png || fail "--also makes another texture of the same"
 for texels in half 16 8 texture; do
@@ -137,8 +150,10 @@ fault 2 "mesh" "$texadapt" patch.pm patch.png --faces 60 -o x.glb --mesh y.ply
 fault 2 "indexing map" "$texadapt" patch.pm patch.png --texels texture --index-map x.exr --faces 60 -o x.png
 fault 2 "rebake" "$texadapt" patch.pm patch.png --engine rebake --log x.adapt --faces 60 -o x.png
 fault 2 "normal-map" "$texadapt" patch.pm patch.png --normal-map patch.png --faces 60 -o x.png
+fault 2 "indexing map" "$texadapt" patch.pm patch.png --engine rebake --normal-map flat=y.png --faces 60 -o x.png
+fault 1 "gone.png" "$texadapt" patch.pm patch.png --normal-map gone.png=y.png --faces 60 -o x.png
 head -c 500 patch.pm >cut.pm
 fault 1 "cut.pm" "$texadapt" cut.pm patch.png --faces 60 -o x.png
-[ ! -e x.png ] && [ ! -e x.exr ] && [ ! -e x.glb ] || fail "a fault has left a file"
-[ "$n_faults" -eq 25 ] || fail "$n_faults faults were tried"
+[ ! -e x.png ] && [ ! -e x.exr ] && [ ! -e x.glb ] && [ ! -e y.png ] || fail "a fault has left a file"
+[ "$n_faults" -eq 27 ] || fail "$n_faults faults were tried"
 echo "texadapt.sh: $n_faults faults"
