@@ -66,17 +66,20 @@ awk -v a="$(mean glb)" -v b="$(mean follows)" 'BEGIN { exit !(a > b - 0.01 && a 
 shots g-200.glb "g-200.glb#normal" normal
 shots coarse.ply n-200.png normal-png
 expect 0 "$bin/psnr" normal normal-png --no-ssim --fail-below 60
-# With a flat normal map the level is shaded nearly as the finest mesh is; the same bytes.
-expect 0 "$texadapt" patch.pm patch.png --faces 200 --normal-map flat=flat.png --mesh normals.ply -o x.png -j1
-expect 0 "$texadapt" patch.pm patch.png --faces 200 --normal-map flat=flat2.png -o x.png -j2
+# With a flat normal map a level of a bumpy ball is shaded nearly as the finest mesh is; the same bytes.
+awk 'NR < 3 || NF == 4 { print; next }
+  { k = 1 + 0.06 * sin(9 * $1) * sin(9 * $2 + 1); print k * $1, k * $2, k * $3 }' ball.off >bumpy.off
+expect 0 "$bin/uvpatch" bumpy.off --faces 900 --texture-size 512 -o bumpy.obj
+expect 0 "$bin/pmesh" build bumpy.obj --metric mapping -o bumpy.pm
+expect 0 "$texadapt" bumpy.pm bumpy.png --faces 200 --normal-map flat=flat.png --mesh normals.ply -o f.png -j1
+expect 0 "$texadapt" bumpy.pm bumpy.png --faces 200 --normal-map flat=flat2.png -o f.png -j2
 cmp -s flat.png flat2.png || fail "other normals on two threads"
-rm x.png
-lit() { expect 0 "$bin/meshshot" "$1" --fixed-light --views 4 --size 128 --like patch.obj --no-sheet -q "${@:2}"; }
-lit patch.obj -o lit-original
+lit() { expect 0 "$bin/meshshot" "$1" --fixed-light --views 4 --size 128 --like bumpy.obj --no-sheet -q "${@:2}"; }
+lit bumpy.obj -o lit-original
 lit normals.ply -o lit-own
 lit normals.ply --normal-map flat.png -o lit-flat
 lit_mean() { "$bin/psnr" lit-original "$1" | awk '$1 == "mean" { print $3 }'; }
-awk -v with="$(lit_mean lit-flat)" -v without="$(lit_mean lit-own)" 'BEGIN { exit !(with > without + 0.5) }' ||
+awk -v with="$(lit_mean lit-flat)" -v without="$(lit_mean lit-own)" 'BEGIN { exit !(with > without + 3) }' ||
   fail "lit: $(lit_mean lit-flat) dB with a flat normal map, $(lit_mean lit-own) without"
 expect 0 "$texadapt" patch.pm patch.png --faces 200 --also patch.png=also.png --size 256x256 -o x256.png
 cmp -s also.png x256.png || fail "--also makes another texture of the same"
