@@ -4,7 +4,7 @@
 #include <array>
 #include <cstdint>
 
-#include "bake/texel_spans.h"
+#include "image/texel_spans.h"
 #include "mesh/mesh.h"
 
 namespace viewcell {
