@@ -9,6 +9,7 @@
 #include "base/file.h"
 #include "common/tool.h"
 #include "image/compare_files.h"
+#include "index_maps.h"
 
 namespace viewcell {
 namespace {
@@ -18,7 +19,8 @@ namespace fs = std::filesystem;
 constexpr int kOverThreshold = 5;
 
 struct Arguments {
-  std::string reference, tested;
+  std::string reference, tested, inside;
+  bool index_maps = false;
   double fail_below_db = -std::numeric_limits<double>::infinity();
   CompareFilesOptions options;
 };
@@ -31,13 +33,21 @@ void declare(Tool& tool, Arguments& arguments) {
   app.add_option("TESTED", arguments.tested,
                  "the picture to judge, or a folder with the same file names")
       ->required();
-  app.add_option("--fail-below", arguments.fail_below_db,
-                 "exit with 5 when the PSNR of any pair is below this many dB");
-  app.add_option("--diff", arguments.options.difference,
-                 "write the amplified difference: a PNG, or a folder of them for folders");
+  CLI::Option* maps = app.add_flag("--index-maps", arguments.index_maps,
+                                   "both are indexing maps (.exr, .tif): RMS and largest distance "
+                                   "in texels, share within one texel");
+  app.add_option("--inside", arguments.inside,
+                 "of indexing maps, only texels inside the charts of this mesh")
+      ->needs(maps);
+  CLI::Option* fail = app.add_option("--fail-below", arguments.fail_below_db,
+                                     "exit with 5 when the PSNR of any pair is below this many dB");
+  CLI::Option* diff =
+      app.add_option("--diff", arguments.options.difference,
+                     "write the amplified difference: a PNG, or a folder of them for folders");
   app.add_option("--gain", arguments.options.difference_gain, "what --diff multiplies by")
       ->capture_default_str();
   app.add_flag("--ssim,!--no-ssim", arguments.options.measures.ssim, "measure SSIM (default: yes)");
+  maps->excludes(fail)->excludes(diff);
   tool.add_output("write the table to this file (default -: standard output)", false);
 }
 
@@ -55,6 +65,10 @@ int run(const Tool& tool, const Arguments& arguments) {
   if (!(arguments.options.difference_gain >= 0))
     throw UsageError("--gain is not a number of at least 0");
   if (std::isnan(arguments.fail_below_db)) throw UsageError("--fail-below is not a number");
+  if (arguments.index_maps) {
+    compare_index_map_files(tool, arguments.reference, arguments.tested, arguments.inside);
+    return 0;
+  }
   const bool folders = fs::is_directory(arguments.reference);
   if (folders != fs::is_directory(arguments.tested)) {
     for (const std::string& path : {arguments.reference, arguments.tested})
@@ -85,7 +99,8 @@ int main(int argc, char** argv) {
       "frame and over covered pixels (alpha above 0 in either), SSIM, SNR (power of "
       "the tested picture over power of the error), RMS and largest difference.",
       "psnr frustum/0001.png hybrid/0001.png --diff difference.png\n"
-      "  psnr frustum/ hybrid/ --fail-below 37 --json distances.json");
+      "  psnr frustum/ hybrid/ --fail-below 37 --json distances.json\n"
+      "  psnr before.exr after.exr --index-maps --inside head.obj");
   viewcell::Arguments arguments;
   viewcell::declare(tool, arguments);
   return tool.main(argc, argv, [&] { return viewcell::run(tool, arguments); });
