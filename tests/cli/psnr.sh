@@ -2,6 +2,7 @@
 # Types psnr's commands and holds exit codes, streams and reports. First argument: the folder of
 # binaries.
 set -euo pipefail
+set -- "$(cd "$1" && pwd)"
 psnr=$1/psnr
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
@@ -106,6 +107,52 @@ printf 'v 0 0 0\n' >text.png
 expect_error 1 "text.png: is not a PNG" "$psnr" a.png text.png
 mkdir E
 expect_error 1 "E: has no pictures" "$psnr" A E
+
+# Indexing maps: the identity against itself in 16 bits, and a coarse level's; inside a chart.
+maps() { expect 0 "$psnr" "$@" --index-maps --json report.json -o table.txt; }
+part_of() { sed -n "s/^ *\"$1\": \([-0-9.e]*\),\{0,1\}\$/\1/p" report.json; }
+holds() { awk -v x="$(part_of "$1")" "BEGIN { exit !(x $2) }" || fail "$1 is $(part_of "$1"), not $2"; }
+cat >square.obj <<'OBJ'
+v 0 0 0
+v 2 0 0
+v 2 2 0
+v 0 2 0
+v 0.9 1.2 1
+vt 0 0
+vt 0.5 0
+vt 0.5 1
+vt 0 1
+vt 0.2 0.6
+f 1/1 2/2 5/5
+f 2/2 3/3 5/5
+f 3/3 4/4 5/5
+f 4/4 1/1 5/5
+OBJ
+"$1/pmesh" build square.obj --metric qem3 -o square.pm -q
+for ending in exr tif; do "$1/texadapt" square.pm a.png --faces 4 -o fine.$ending -q; done
+"$1/texadapt" square.pm a.png --faces 2 -o coarse.exr -q
+maps fine.exr fine.exr
+holds rms_texels "== 0" && holds share_within_texel "== 1" && holds texels "== 300"
+maps fine.exr fine.tif
+holds rms_texels "> 0" && holds max_texels "< 0.001"
+maps fine.exr coarse.exr
+holds rms_texels "> 0.5" && holds share_within_texel "< 0.9"
+all=$(part_of rms_texels)
+maps fine.exr coarse.exr --inside square.obj
+holds texels "== 150"
+holds rms_texels "> 1.2 * $all"  # the other half did not move
+expect 0 "$psnr" fine.exr coarse.exr --index-maps
+grep -q "RMS texels" out || fail "no table: $(cat out)"
+expect_error 2 "--index-maps" "$psnr" fine.exr coarse.exr --inside square.obj
+expect_error 2 "--fail-below" "$psnr" fine.exr coarse.exr --index-maps --fail-below 3
+expect_error 1 "a.png: is not a TIFF or EXR" "$psnr" fine.exr a.png --index-maps
+expect_error 1 "missing.obj" "$psnr" fine.exr coarse.exr --index-maps --inside missing.obj
+sed '/^vt/d; s,/[0-9],,g' square.obj >bare.obj
+expect_error 1 "bare.obj: has no texture coordinates" "$psnr" fine.exr coarse.exr --index-maps --inside bare.obj
+sed 's/^vt /vt 7/' square.obj >aside.obj
+expect_error 1 "aside.obj: no texel lies inside" "$psnr" fine.exr coarse.exr --index-maps --inside aside.obj
+"$1/texadapt" square.pm a.png --faces 2 --size 15x20 -o turned.exr -q
+expect_error 1 "turned.exr: is 15 x 20 texels" "$psnr" fine.exr turned.exr --index-maps
 
 # The machine's fault, and nothing left behind.
 expect_error 3 "no/d.png" "$psnr" a.png b.png --diff no/d.png

@@ -39,6 +39,7 @@ void compare_index_map_files(const Tool& tool, const std::string& reference,
   CompareIndexMapsOptions options;
   if (!inside.empty()) options.counted = texels_inside(inside, a);
   const IndexMapDistance distance = compare_index_maps(a, b, options);
+  if (distance.n_texels == 0) throw InputError(inside, "", "no texel lies inside its charts");
   const CommonOptions& common = tool.common();
   const std::string table_file = common.output.empty() ? "-" : common.output;
   if (table_file != "-" || common.json_file != "-")
