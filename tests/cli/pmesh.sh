@@ -53,6 +53,7 @@ for metric in qem3 lt "mapping --placement full"; do
   expect 0 "$pmesh" extract bounded.pm --faces 1000000 -o whole.ply
   base=$("$pmesh" info bounded.pm | grep -o '"faces_base": [0-9]*' | grep -o '[0-9]*$')
   expect 0 "$pmesh" extract bounded.pm --faces "$base" -o coarse.ply --json report.json
+  grep -q '"level_s": ' report.json || fail "no timing"
   grep -Eq '"error_bound": 0\.(1|2,|2$)' report.json || fail "error_bound: $(cat report.json)"
   expect 0 "$bin/meshdist" whole.ply coarse.ply --samples 20000 --fail-above 0.2
 done

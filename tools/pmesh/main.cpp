@@ -111,18 +111,20 @@ void write_mesh(const std::string& file, const TriMesh& mesh) {
 }
 
 void choose_level(const PmeshArguments& a, ProgressiveMesh& mesh) {
-  if (!a.within) {
-    mesh.set_level(mesh.n_splits());
+  if (!a.within)
     mesh.set_faces(*a.n_faces);
-  } else if (!mesh.set_error(*a.within)) {
+  else if (!mesh.set_error(*a.within))
     throw InputError(a.pm, "", "has no error bounds; pmesh build --track-error keeps them");
-  }
 }
 
 int extract(const Tool& tool, const PmeshArguments& a) {
   check_extract(tool, a);
   ProgressiveMesh mesh(read_pm(a.pm));
+  // From the finest level on, as a program that draws goes.
+  mesh.set_level(mesh.n_splits());
+  Stopwatch watch;
   choose_level(a, mesh);
+  const double level_s = watch.lap_s();
   const TriMesh out = mesh.extract();
   write_mesh(tool.common().output, out);
   const bool is_short = a.n_faces && out.triangles.size() > *a.n_faces;
@@ -130,7 +132,8 @@ int extract(const Tool& tool, const PmeshArguments& a) {
   tool.report({{"faces", out.triangles.size()},
                {"vertices", out.positions.size()},
                {"cost", mesh.cost()},
-               {"error_bound", mesh.error() < 0 ? Json() : Json(mesh.error())}});
+               {"error_bound", mesh.error() < 0 ? Json() : Json(mesh.error())},
+               {"timing", {{"level_s", level_s}}}});
   if (!is_short) return 0;
   std::fprintf(stderr, "pmesh: %s: %zu faces were asked for, its base has %zu\n", a.pm.c_str(),
                *a.n_faces, mesh.n_base_faces());
