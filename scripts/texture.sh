@@ -2,12 +2,12 @@
 # They set $from, the folder of models, $out, $bin and $here, and source metrics.sh.
 
 # NAME; title; faces to simplify to; mesh; texture or - for uvpatch's check-board; how the mesh is made:
-# "patch OPTIONS" of uvpatch, "subdivide OPTIONS", or - for the file as it is. Mesh and texture are looked
+# "patch OPTIONS" of uvpatch, "subdivide OPTIONS", "turn": v runs down in the file, - for the file as it is. Mesh and texture are looked
 # for by name, NAME|NAME..., in FROM and its folders.
 cases='
 swirl; Swirl; 399; 951gaspra_21_MLfix.obj; -; patch --faces 7688 --distort swirl
 bunnyhead; Bunny head; 500; bunny.ply|bunny70k.ply; -; patch --up y --faces 17483
-leeperrysmith; LeePerrySmith; 500; LeePerrySmith.glb; Map-COL.jpg; -
+leeperrysmith; LeePerrySmith; 500; LeePerrySmith.glb; Map-COL.jpg; turn
 josie; Josie; 300; josie.obj; josie.png; -
 gaspra; Gaspra; 800; 951gaspra_21_MLfix.obj; 951gaspra.png; -
 spot; Spot; 300; spot_triangulated.obj; spot_texture.png; -
@@ -51,7 +51,17 @@ prepare() {
       [ -f "$2/mesh.obj" ] || "$bin/subdivide" "$mesh" ${how#subdivide} -o "$2/mesh.obj" -q
       mesh=$2/mesh.obj
       ;;
+    turn)
+      [ -f "$2/mesh.obj" ] || turn_texcoords "$mesh" "$2"
+      mesh=$2/mesh.obj
+      ;;
   esac
+}
+
+turn_texcoords() {  # MESH FOLDER: FOLDER/mesh.obj
+  "$bin/subdivide" "$1" --times 0 -q -o - |
+    awk '$1 == "vt" { $3 = sprintf("%.9g", 1 - $3) } { print }' >"$2/turned.new"
+  mv "$2/turned.new" "$2/mesh.obj"
 }
 
 names_of_cases() { sed -n 's/^\([a-z0-9]*\);.*/\1/p' <<<"$cases"; }
