@@ -32,11 +32,12 @@ prepare() {
   local row files textures how
   row=$(grep "^$1;" <<<"$cases") || { echo "$(basename "$0"): there is no case '$1'" >&2; return 1; }
   IFS=';' read -r _ title faces files textures how <<<"$row"
-  title=${title# } faces=${faces# } how=${how# }
-  mesh=$(find_file "${files# }") texture=
-  [ "${textures# }" = - ] || texture=$(find_file "${textures# }")
-  if [ -z "$mesh" ] || { [ -z "$texture" ] && [ "${textures# }" != - ]; }; then
-    echo "$(basename "$0"): $1: no $files or $textures in $from, left out" >&2
+  title=${title# } faces=${faces# } files=${files# } textures=${textures# } how=${how# }
+  mesh=$(find_file "$files") texture=
+  [ "$textures" = - ] || texture=$(find_file "$textures")
+  if [ -z "$mesh" ] || { [ -z "$texture" ] && [ "$textures" != - ]; }; then
+    [ -n "$mesh" ] && files=$textures
+    echo "$(basename "$0"): $1: no $files in $from, left out" >&2
     return 1
   fi
   mkdir -p "$2"
