@@ -20,8 +20,8 @@ class ChartGuard {
   ChartGuard(const WedgeMesh& mesh, int size_px);
 
   /// Whether the collapse u -> v, which the table has matched last, makes a chart hold a texel that
-  /// is another's or touches one. merged, full: as for turns_over_texture(). Known limit: a chart may
-  /// grow over another part of itself.
+  /// is another's or touches one. merged, full: as for turns_over_texture(). Known limit: a chart
+  /// may grow over another part of itself.
   bool overlaps(const CollapseMesh& mesh, const WedgeTable& wedges,
                 std::span<const glm::vec2> texcoords, std::uint32_t u, std::uint32_t v,
                 std::span<const glm::vec2> merged, bool full);
