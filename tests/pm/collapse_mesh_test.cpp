@@ -354,7 +354,7 @@ TEST(Refusal, EveryKindHasAName) {
   std::set<std::string> names;
   for (int i = 0; i < kRefusalKinds; ++i) names.insert(refusal_name(static_cast<Refusal>(i)));
   EXPECT_EQ(names, (std::set<std::string>{"none", "link", "boundary", "flip", "sliver", "chart",
-                                          "fold", "bound", "metric"}));
+                                          "fold", "overlap", "bound", "metric"}));
 }
 
 }  // namespace
