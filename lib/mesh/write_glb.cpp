@@ -5,11 +5,13 @@
 #include <cstring>
 #include <limits>
 #include <map>
+#include <tuple>
 
 #include "base/error.h"
 #include "base/file.h"
 #include "base/json.h"
 #include "base/version.h"
+#include "mesh/tangents.h"
 
 // Source: the glTF 2.0 specification (Khronos), 4.4 (GLB) and 3.6 (accessors).
 
@@ -27,6 +29,7 @@ constexpr int kLinear = 9729, kLinearMipmapLinear = 9987;
 struct SplitMesh {
   std::vector<std::uint32_t> source;  // the mesh's vertex
   std::vector<glm::vec2> texcoords;   // ours, v up; empty without
+  std::vector<glm::vec4> tangents;    // empty without
   std::vector<std::uint32_t> indices;
 };
 
@@ -36,27 +39,36 @@ std::uint64_t bits_of(const glm::vec2& uv) {
          std::bit_cast<std::uint32_t>(uv.y);
 }
 
-SplitMesh split_vertices(const TriMesh& mesh) {
+// tangents: of corners, or empty. Corners of a vertex with the same texture coordinates on the same
+// side have the same one.
+SplitMesh split_vertices(const TriMesh& mesh, const std::vector<glm::vec4>& tangents) {
   const auto n = static_cast<std::uint32_t>(mesh.positions.size());
   SplitMesh out;
   for (std::uint32_t v = 0; v < n; ++v) out.source.push_back(v);
   std::vector<bool> is_taken(n, false);
   if (!mesh.texcoords.empty()) out.texcoords.resize(n, glm::vec2(0));
-  std::map<std::pair<std::uint32_t, std::uint64_t>, std::uint32_t> copies;
+  if (!tangents.empty()) out.tangents.resize(n, glm::vec4(1, 0, 0, 1));
+  std::map<std::tuple<std::uint32_t, std::uint64_t, float>, std::uint32_t> copies;
   for (std::size_t corner = 0; corner < 3 * mesh.triangles.size(); ++corner) {
     const std::uint32_t v = mesh.triangles[corner / 3][corner % 3];
     out.indices.push_back(v);
     if (mesh.texcoords.empty()) continue;
     const glm::vec2& uv = mesh.texcoords[corner];
-    if (!is_taken[v]) out.texcoords[v] = uv;
+    const float side = tangents.empty() ? 0 : tangents[corner].w;
+    if (!is_taken[v]) {
+      out.texcoords[v] = uv;
+      if (!tangents.empty()) out.tangents[v] = tangents[corner];
+    }
     is_taken[v] = true;
-    if (bits_of(out.texcoords[v]) == bits_of(uv)) continue;
+    const bool is_same_side = tangents.empty() || out.tangents[v].w == side;
+    if (bits_of(out.texcoords[v]) == bits_of(uv) && is_same_side) continue;
     const auto next = static_cast<std::uint32_t>(out.source.size());
-    const auto [copy, is_new] = copies.try_emplace({v, bits_of(uv)}, next);
+    const auto [copy, is_new] = copies.try_emplace({v, bits_of(uv), side}, next);
     out.indices.back() = copy->second;
     if (!is_new) continue;
     out.source.push_back(v);
     out.texcoords.push_back(uv);
+    if (!tangents.empty()) out.tangents.push_back(tangents[corner]);
   }
   return out;
 }
@@ -116,8 +128,13 @@ std::size_t add_indices(Content& content, const SplitMesh& split) {
   return add_accessor(content, small, kUnsignedShort, "SCALAR", kIndexData);
 }
 
-Json add_primitive(Content& content, const TriMesh& mesh, bool has_picture) {
-  const SplitMesh split = split_vertices(mesh);
+std::vector<glm::vec4> tangents_for(const TriMesh& mesh, const GlbOptions& options) {
+  if (options.normal_map.empty() || mesh.normals.empty()) return {};
+  return make_corner_tangents(mesh, make_corner_normals(mesh));
+}
+
+Json add_primitive(Content& content, const TriMesh& mesh, const GlbOptions& options) {
+  const SplitMesh split = split_vertices(mesh, tangents_for(mesh, options));
   Json attributes{{"POSITION", add_positions(content, pick(mesh.positions, split.source))}};
   const auto add = [&](const char* name, const std::vector<glm::vec3>& values) {
     attributes[name] =
@@ -129,7 +146,9 @@ Json add_primitive(Content& content, const TriMesh& mesh, bool has_picture) {
     for (glm::vec2& uv : turned) uv.y = 1 - uv.y;
     attributes["TEXCOORD_0"] = add_accessor(content, turned, kFloat, "VEC2", kVertexData);
   }
-  if (!mesh.colors.empty() && !has_picture) add("COLOR_0", mesh.colors);
+  if (!split.tangents.empty())
+    attributes["TANGENT"] = add_accessor(content, split.tangents, kFloat, "VEC4", kVertexData);
+  if (!mesh.colors.empty() && options.base_color.empty()) add("COLOR_0", mesh.colors);
   return {{"attributes", attributes}, {"indices", add_indices(content, split)}, {"material", 0}};
 }
 
@@ -165,7 +184,7 @@ Json make_root(Content& content, const TriMesh& mesh, const GlbOptions& options,
             {"scene", 0},
             {"scenes", Json::array({scene})},
             {"nodes", Json::array({root_node})}};
-  const Json primitive = add_primitive(content, mesh, !options.base_color.empty());
+  const Json primitive = add_primitive(content, mesh, options);
   root["meshes"] = Json::array({Json{{"primitives", Json::array({primitive})}}});
   Json material{{"pbrMetallicRoughness", {{"metallicFactor", 0}, {"roughnessFactor", 1}}}};
   if (!options.base_color.empty())

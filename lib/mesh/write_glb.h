@@ -26,7 +26,8 @@ struct GlbOptions {
 /// y points up. Indices are uint16 up to 65535 vertices, else uint32.
 ///
 /// Left out: materials and their names; vertex colours where there is base_color, which would
-/// multiply it; tangents, which a viewer of the normal map makes for itself (glTF 2.0, 3.7.2.1).
+/// multiply it. Tangents (mesh/tangents.h) are written where there are a normal map and normals;
+/// where a texture meets its mirror image on one vertex, that too has copies.
 ///
 /// The mesh must have a triangle; a texture needs texture coordinates. Throws InputError for
 /// positions or texture coordinates that are not finite, for bytes that are neither PNG nor JPEG,

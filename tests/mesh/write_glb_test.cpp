@@ -158,7 +158,7 @@ TEST(WriteGlb, KeepsTheRulesOfTheFormat) {
   EXPECT_EQ(json["nodes"], Json::parse(R"([{"mesh": 0}])"));
   EXPECT_EQ(json["buffers"].size(), 1u);
   EXPECT_EQ(json["buffers"][0]["byteLength"], glb.binary.size());
-  ASSERT_EQ(json["bufferViews"].size(), 6u);
+  ASSERT_EQ(json["bufferViews"].size(), 7u);
   std::size_t end = 0;
   for (const Json& view : json["bufferViews"]) {
     EXPECT_EQ(view["byteOffset"].get<std::size_t>() % 4, 0u);
@@ -170,7 +170,8 @@ TEST(WriteGlb, KeepsTheRulesOfTheFormat) {
   for (const auto& [name, id] : primitive["attributes"].items()) {
     const Json& accessor = json["accessors"][id.get<std::size_t>()];
     EXPECT_EQ(accessor["count"], 8) << name;
-    EXPECT_EQ(accessor["type"], name == "TEXCOORD_0" ? "VEC2" : "VEC3");
+    EXPECT_EQ(accessor["type"],
+              name == "TEXCOORD_0" ? "VEC2" : (name == "TANGENT" ? "VEC4" : "VEC3"));
     EXPECT_EQ(json["bufferViews"][accessor["bufferView"].get<std::size_t>()]["target"], 34962);
     EXPECT_EQ(accessor.contains("min"), name == "POSITION");
   }
@@ -208,6 +209,44 @@ TEST(WriteGlb, TextureCoordinatesAreTurnedOver) {
   glm::vec2 first;
   std::memcpy(&first, glb.binary.data() + at, sizeof first);
   EXPECT_EQ(first, glm::vec2(0.125f, 0.75f));
+}
+
+//  1--2--3    u grows from the middle, 2-5, to both sides: 2 and 5 have a tangent on either side
+//  |/ |\ |
+//  0--5--4
+TEST(WriteGlb, TangentsPartAtMirrors) {
+  const TemporaryFolder folder;
+  TriMesh mesh;
+  mesh.positions = {{-1, 0, 0}, {-1, 1, 0}, {0, 1, 0}, {1, 1, 0}, {1, 0, 0}, {0, 0, 0}};
+  mesh.normals.assign(6, {0, 0, 1});
+  mesh.triangles = {{0, 2, 1}, {0, 5, 2}, {4, 3, 2}, {5, 4, 2}};
+  for (const Triangle& t : mesh.triangles)
+    for (const std::uint32_t v : t)
+      mesh.texcoords.emplace_back(std::abs(mesh.positions[v].x), mesh.positions[v].y);
+  write_glb(folder.path() / "a.glb", mesh, {.base_color = "", .normal_map = kPng, .generator = ""});
+  const Glb glb = split_glb(read_file(folder.path() / "a.glb"));
+  const Json& primitive = glb.json["meshes"][0]["primitives"][0];
+  const auto read = [&](const Json& id, auto& out) {
+    const Json& accessor = glb.json["accessors"][id.get<std::size_t>()];
+    const Json& view = glb.json["bufferViews"][accessor["bufferView"].get<std::size_t>()];
+    out.resize(accessor["count"].get<std::size_t>());
+    std::memcpy(out.data(), glb.binary.data() + view["byteOffset"].get<std::size_t>(),
+                out.size() * sizeof out[0]);
+  };
+  std::vector<glm::vec4> tangents;
+  std::vector<std::uint16_t> indices;
+  read(primitive["attributes"]["TANGENT"], tangents);
+  read(primitive["indices"], indices);
+  ASSERT_EQ(tangents.size(), 8u);
+  for (std::size_t c = 0; c < indices.size(); ++c) {
+    const float side = c < 6 ? -1 : 1;
+    EXPECT_EQ(tangents[indices[c]], glm::vec4(side, 0, 0, side)) << c;
+  }
+  const TriMesh back = read_mesh(folder.path() / "a.glb");
+  EXPECT_EQ(back.texcoords, mesh.texcoords);
+  mesh.normals.clear();  // a viewer takes normals of its own
+  write_glb(folder.path() / "a.glb", mesh, {.base_color = "", .normal_map = kPng, .generator = ""});
+  EXPECT_EQ(read_file(folder.path() / "a.glb").find("TANGENT"), std::string::npos);
 }
 
 TEST(WriteGlb, IndicesWidenWhereSixteenBitsEnd) {
