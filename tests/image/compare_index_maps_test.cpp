@@ -28,8 +28,8 @@ TEST(CompareIndexMaps, ByHand) {
   EXPECT_NEAR(d.rms_texels, std::sqrt((9 + 16 + 0.5) / 32), 1e-6);
   EXPECT_NEAR(d.max_texels, 4, 1e-6);
   EXPECT_DOUBLE_EQ(d.share_within, 30. / 32);
-  EXPECT_DOUBLE_EQ(compare_index_maps(a, b, {3.5, nullptr}).share_within, 31. / 32);
-  EXPECT_DOUBLE_EQ(compare_index_maps(a, b, {0, nullptr}).share_within, 29. / 32);
+  EXPECT_DOUBLE_EQ(compare_index_maps(a, b, {3.5, {}}).share_within, 31. / 32);
+  EXPECT_DOUBLE_EQ(compare_index_maps(a, b, {0, {}}).share_within, 29. / 32);
 }
 
 TEST(CompareIndexMaps, CountsWhereAsked) {
