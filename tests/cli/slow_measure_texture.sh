@@ -58,4 +58,4 @@ expect 0 "$scripts/write-results" doc.md out
 grep -q '^| adapted |' doc.md && grep -q 'pictures/out/josie-sheet.png' doc.md && grep -q '^| Josie | 1 |' doc.md &&
   grep -qx kept doc.md && ! grep -qx old doc.md || fail "$(cat doc.md)"
 cmp -s pictures/out/josie-sheet.png out/josie/sheet.png || fail "another picture"
-echo "measure_texture.sh: all well"
+echo "slow_measure_texture.sh: all well"
