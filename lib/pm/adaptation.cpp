@@ -89,6 +89,7 @@ class LogBuilder {
     log_.first_triangle.push_back(static_cast<std::uint32_t>(log_.triangles.size()));
   }
   void find_moves(const VertexSplit& split);
+  bool stays(std::uint32_t v, const glm::vec3& place) const;
   void move(std::uint32_t v, const glm::vec3& place, std::span<const WedgeMove> moves);
   void merge(const VertexSplit& split);
   void collapse_edge(const VertexSplit& split, Step step);
@@ -139,6 +140,13 @@ void LogBuilder::find_moves(const VertexSplit& split) {
   }
 }
 
+bool LogBuilder::stays(std::uint32_t v, const glm::vec3& place) const {
+  return finest_.wedges.positions[v] == place &&
+         std::all_of(moves_.begin(), moves_.end(), [&](const WedgeMove& m) {
+           return finest_.wedges.texcoords[m.wedge] == m.texcoord;
+         });
+}
+
 void LogBuilder::move(std::uint32_t v, const glm::vec3& place, std::span<const WedgeMove> moves) {
   finest_.wedges.positions[v] = place;
   for (const WedgeMove& m : moves) finest_.wedges.texcoords[m.wedge] = m.texcoord;
@@ -147,7 +155,7 @@ void LogBuilder::move(std::uint32_t v, const glm::vec3& place, std::span<const W
 
 // The child goes; each of its wedges becomes one of the parent's.
 void LogBuilder::merge(const VertexSplit& split) {
-  table_.match(mesh_, split.child, split.parent, log_.steps_per_collapse == 2);
+  table_.match(mesh_, split.child, split.parent);
   mesh_.collapse(split.child, split.parent, &trace_);
   table_.apply(trace_);
   map_.forget();
@@ -163,11 +171,16 @@ void LogBuilder::collapse() {
 }
 
 // A full-edge collapse in the first way that no face turns over: the child goes to the parent,
-// which then moves; the parent goes to the child; the parent moves first.
+// which then moves, unless it is there; the parent goes to the child; the parent moves first.
 void LogBuilder::collapse_edge(const VertexSplit& split, Step step) {
   const std::uint32_t u = split.child, v = split.parent;
   const glm::vec3 place = coarser_.record().attributes.positions[v];
   find_moves(split);
+  if (stays(v, place)) {
+    end_step(step);
+    merge(split);
+    return mark_start();
+  }
   const auto end_with_move = [&] {
     merge(split);
     end_step(add(map_.lay_move(v, glm::dvec3(place), moves_), true));
@@ -181,7 +194,7 @@ void LogBuilder::collapse_edge(const VertexSplit& split, Step step) {
     end_step(Step::done);
     // From here on the parent stands where the child is.
     std::vector<WedgeMove> there;
-    table_.match(mesh_, u, v, true);
+    table_.match(mesh_, u, v);
     for (const WedgeTable::Pair& pair : table_.pairs())
       there.push_back({pair.to, finest_.wedges.texcoords[pair.from]});
     move(v, finest_.wedges.positions[u], there);

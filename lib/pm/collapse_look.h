@@ -19,7 +19,8 @@ class CollapseLook {
   /// Keeps references.
   CollapseLook(const CollapseMesh& mesh, const WedgeTable& wedges,
                std::span<const glm::vec3> positions, Deviations deviations)
-      : map_(mesh, wedges, positions, {}, Matching::nearest, {.moments = Deviations::kMoments}),
+      : positions_(positions),
+        map_(mesh, wedges, positions, {}, Matching::nearest, {.moments = Deviations::kMoments}),
         deviations_(std::move(deviations)) {}
 
   /// Deviations::cost() of the collapse; infinite when it has no map.
@@ -31,8 +32,9 @@ class CollapseLook {
     return deviations_.cost(change_);
   }
   /// The same for both vertices going to `place`. One moves, the other collapses into it: either
-  /// may be the one, whichever costs less.
+  /// may be the one, whichever costs less. Where v is there already, the collapse of u into v.
   float look(std::uint32_t u, std::uint32_t v, const glm::vec3& place) {
+    if (place == positions_[v]) return look(u, v);
     if (u > v) std::swap(u, v);  // the same sums from either side
     const float first = look_full(u, v, glm::dvec3(place));
     std::swap(change_, other_);
@@ -60,6 +62,7 @@ class CollapseLook {
     return deviations_.cost(change_);
   }
 
+  std::span<const glm::vec3> positions_;
   CollapseMap map_;
   Deviations deviations_;
   typename Deviations::Change change_, other_;

@@ -47,6 +47,8 @@ inline Refusal as_refusal(Refusal refusal) {
 /// - void collapsed(u, v): told after it.
 /// For full-edge collapses:
 /// - glm::vec3 place(u, v): where both go; cost and place are the same for (u, v) and (v, u);
+/// - bool may_collapse(u, v), if there is one: whether u may be what goes; without it the lower one;
+/// - bool stays(), if there is one: whether v stays where it is in the collapse placed last;
 /// - void collapsed(u, v, place): moves v.
 /// Metric::kReach (1 where there is none): 1 when a collapse u -> v changes costs of pairs with v
 /// only; 2 when it changes those of every vertex around v.
@@ -123,7 +125,10 @@ class CollapseLoop {
   }
 
   // A full-edge collapse is the same from both ends: the edge is a candidate of its lower one only.
-  static bool is_candidate(std::uint32_t u, std::uint32_t v) { return !kPlaces || u < v; }
+  bool is_candidate(std::uint32_t u, std::uint32_t v) {
+    if constexpr (requires { metric_.may_collapse(u, v); }) return metric_.may_collapse(u, v);
+    return !kPlaces || u < v;
+  }
 
   float metric_cost(std::uint32_t u, std::uint32_t v) {
     ++n_costs_;
@@ -135,7 +140,10 @@ class CollapseLoop {
     Refusal refusal;
     if constexpr (kPlaces) {
       place_ = metric_.place(u, v);
-      refusal = mesh_.check(u, v, place_, limits.min_cosine);
+      bool stays = false;
+      if constexpr (requires { metric_.stays(); }) stays = metric_.stays();
+      refusal = stays ? mesh_.check(u, v, limits.min_cosine)
+                      : mesh_.check(u, v, place_, limits.min_cosine);
     } else {
       refusal = mesh_.check(u, v, limits.min_cosine);
     }

@@ -201,8 +201,8 @@ LindstromTurkMetric::Quadratic LindstromTurkMetric::make_shape(std::uint32_t u,
   return shape;
 }
 
-glm::dvec3 LindstromTurkMetric::least(std::uint32_t u, std::uint32_t v, const Sums& sums,
-                                      double edge2) const {
+glm::dvec3 LindstromTurkMetric::least(std::uint32_t u, std::uint32_t v,
+                                      const Sums& sums) const {
   Constraints constraints(cosine2_, sine2_);
   Quadratic both;
   both.add(sums.volume, options_.volume_weight / 36);
@@ -210,7 +210,7 @@ glm::dvec3 LindstromTurkMetric::least(std::uint32_t u, std::uint32_t v, const Su
     Quadratic kept;
     kept.add_cross(sums.along, sums.twist);
     constraints.add_minimum(kept);
-    both.add(sums.boundary, options_.boundary_weight * edge2 / 4);
+    both.add(sums.boundary, options_.boundary_weight * sums.edge2 / 4);
   }
   constraints.add(sums.normals, sums.volumes);
   constraints.add_minimum(both);
@@ -218,20 +218,34 @@ glm::dvec3 LindstromTurkMetric::least(std::uint32_t u, std::uint32_t v, const Su
   return constraints.solve();
 }
 
+LindstromTurkMetric::Sums LindstromTurkMetric::sum_up(std::uint32_t u, std::uint32_t v) {
+  Sums sums = sum_triangles(u, v);
+  const glm::dvec3 edge = between(u, v);
+  sums.edge2 = glm::dot(edge, edge);
+  if (on_boundary_[u] || on_boundary_[v]) gather_boundary(u, v, sums);
+  return sums;
+}
+
+float LindstromTurkMetric::cost_of(const Sums& sums, const glm::dvec3& p) const {
+  double value = options_.volume_weight / 36 * sums.volume.value(p);
+  if (sums.has_boundary)
+    value += options_.boundary_weight * sums.edge2 / 4 * sums.boundary.value(p);
+  return static_cast<float>(cube_root(std::sqrt(std::max(value, 0.0))));
+}
+
 const LindstromTurkMetric::Evaluated& LindstromTurkMetric::evaluate(std::uint32_t u,
                                                                     std::uint32_t v) {
   if (u > v) std::swap(u, v);  // the same sums from either side
   if (last_.u == u && last_.v == v) return last_;
-  Sums sums = sum_triangles(u, v);
-  const glm::dvec3 edge = between(u, v);
-  const double edge2 = glm::dot(edge, edge);
-  if (on_boundary_[u] || on_boundary_[v]) gather_boundary(u, v, sums);
-  const glm::dvec3 p = least(u, v, sums, edge2);
-  double value = options_.volume_weight / 36 * sums.volume.value(p);
-  if (sums.has_boundary) value += options_.boundary_weight * edge2 / 4 * sums.boundary.value(p);
-  const auto cost = static_cast<float>(cube_root(std::sqrt(std::max(value, 0.0))));
-  last_ = {u, v, cost, glm::vec3(glm::dvec3(positions_[u]) + p)};
+  const Sums sums = sum_up(u, v);
+  const glm::dvec3 p = least(u, v, sums);
+  last_ = {u, v, cost_of(sums, p), glm::vec3(glm::dvec3(positions_[u]) + p)};
   return last_;
+}
+
+float LindstromTurkMetric::cost_at(std::uint32_t u, std::uint32_t v, const glm::vec3& place) {
+  if (u > v) std::swap(u, v);
+  return cost_of(sum_up(u, v), glm::dvec3(place) - glm::dvec3(positions_[u]));
 }
 
 }  // namespace viewcell

@@ -30,6 +30,7 @@ class LindstromTurkMetric {
                       const LindstromTurkOptions& options = {});
 
   float cost(std::uint32_t u, std::uint32_t v) { return evaluate(u, v).cost; }
+  float cost_at(std::uint32_t u, std::uint32_t v, const glm::vec3& place);
   glm::vec3 place(std::uint32_t u, std::uint32_t v) { return evaluate(u, v).place; }
   bool allows(const CollapseMesh&, std::uint32_t, std::uint32_t) const { return true; }
   void collapsed(std::uint32_t u, std::uint32_t v, const glm::vec3& place) {
@@ -67,6 +68,7 @@ class LindstromTurkMetric {
     glm::dvec3 along{0}, twist{0};
     Quadratic boundary;  // 4 times a squared area
     bool has_boundary = false;
+    double edge2 = 0;  // squared length of the edge
   };
   // Sums over the triangles of a vertex, whose planes go through it: seen from there n p is 0.
   struct Star {
@@ -88,9 +90,11 @@ class LindstromTurkMetric {
   const Star& star(std::uint32_t v);
   void gather_spokes(std::uint32_t u);
   Sums sum_triangles(std::uint32_t u, std::uint32_t v);
+  Sums sum_up(std::uint32_t u, std::uint32_t v);
   Quadratic make_shape(std::uint32_t u, std::uint32_t v) const;
   void gather_boundary(std::uint32_t u, std::uint32_t v, Sums& sums);
-  glm::dvec3 least(std::uint32_t u, std::uint32_t v, const Sums& sums, double edge2) const;
+  glm::dvec3 least(std::uint32_t u, std::uint32_t v, const Sums& sums) const;
+  float cost_of(const Sums& sums, const glm::dvec3& p) const;
   glm::dvec3 between(std::uint32_t from, std::uint32_t to) const {
     return glm::dvec3(positions_[to]) - glm::dvec3(positions_[from]);
   }

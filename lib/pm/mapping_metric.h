@@ -74,10 +74,13 @@ class MappingFullMetric {
                     Deviations deviations, const LindstromTurkOptions& options = {})
       : places_(mesh, positions, options), look_(mesh, wedges, positions, std::move(deviations)) {}
 
-  float cost(std::uint32_t u, std::uint32_t v) { return look_.look(u, v, places_.place(u, v)); }
+  float cost(std::uint32_t u, std::uint32_t v) { return cost_at(u, v, places_.place(u, v)); }
+  float cost_at(std::uint32_t u, std::uint32_t v, const glm::vec3& place) {
+    return look_.look(u, v, place);
+  }
   glm::vec3 place(std::uint32_t u, std::uint32_t v) { return places_.place(u, v); }
   bool allows(const CollapseMesh&, std::uint32_t u, std::uint32_t v, const glm::vec3& place) {
-    return look_.look(u, v, place) < std::numeric_limits<float>::infinity();
+    return cost_at(u, v, place) < std::numeric_limits<float>::infinity();
   }
   void collapsed(std::uint32_t u, std::uint32_t v, const glm::vec3& place) {
     places_.collapsed(u, v, place);

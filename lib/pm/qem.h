@@ -89,6 +89,10 @@ class QemFullMetric {
     const Quadric sum = sum_of(u, v);
     return scale_.cost(sum.value(least(sum, u, v)), sum.weight);
   }
+  float cost_at(std::uint32_t u, std::uint32_t v, const glm::vec3& place) const {
+    const Quadric sum = sum_of(u, v);
+    return scale_.cost(sum.value(glm::dvec3(place) - centre_), sum.weight);
+  }
   glm::vec3 place(std::uint32_t u, std::uint32_t v) const {
     return glm::vec3(centre_ + least(sum_of(u, v), u, v));
   }

@@ -21,7 +21,12 @@ struct RecordedMetric {
   float error_bound;
   bool refuse_folds;   ///< in the texture
   ChartGuard* charts;  ///< to keep them apart, or none
+  /// Where an edge may go in a full-edge collapse: nowhere, to its end v (from inside a chart to
+  /// its border, from a border to where borders meet), to a place on itself (along a border),
+  /// anywhere.
+  enum class Way { none, to_end, along, free };
   glm::vec3 last_place{0};
+  Way last_way = Way::free;
 
   static constexpr bool kPlaces = requires(Metric m) { m.place(0u, 0u); };
   static constexpr int kReach = [] {
@@ -29,20 +34,35 @@ struct RecordedMetric {
     return 1;
   }();
 
-  float cost(std::uint32_t u, std::uint32_t v) { return metric.cost(u, v); }
+  float cost(std::uint32_t u, std::uint32_t v) {
+    if constexpr (requires { metric.cost_at(u, v, last_place); })
+      if (const Way way = find_way(u, v); way == Way::to_end || way == Way::along)
+        return metric.cost_at(u, v, place(u, v));
+    return metric.cost(u, v);
+  }
   void fetch(std::uint32_t v) const requires requires(Metric m) { m.fetch(v); }
   { metric.fetch(v); }
   float cost_at_least(std::uint32_t u, std::uint32_t v) requires requires(Metric m) {
     m.cost_at_least(u, v);
   }
   { return metric.cost_at_least(u, v); }
-  /// Along the border of two charts the place stays on the edge, whatever the metric knows of
-  /// charts.
+  Way find_way(std::uint32_t u, std::uint32_t v) requires kPlaces {
+    if (recorder.texcoords().empty()) return Way::free;
+    if (!recorder.match(mesh, u, v)) return Way::none;
+    if (!recorder.table().can_move(mesh, v)) return Way::to_end;
+    return recorder.table().pairs().size() < 2 ? Way::free : Way::along;
+  }
+  bool may_collapse(std::uint32_t u, std::uint32_t v) requires kPlaces {
+    const Way way = find_way(u, v);
+    return way == Way::to_end || (way != Way::none && u < v);
+  }
+  bool stays() const requires kPlaces { return last_way == Way::to_end; }
+  /// Whatever the metric knows of charts.
   glm::vec3 place(std::uint32_t u, std::uint32_t v) requires kPlaces {
+    last_way = find_way(u, v);
+    if (last_way == Way::to_end) return last_place = mesh.position(v);
     last_place = metric.place(u, v);
-    if (recorder.texcoords().empty() || !recorder.match(mesh, u, v) ||
-        recorder.table().pairs().size() < 2)
-      return last_place;
+    if (last_way != Way::along) return last_place;
     const glm::dvec3 a(mesh.position(u)), b(mesh.position(v));
     const double t = closest_on_segment(glm::dvec3(last_place), a, b);
     return last_place = glm::vec3(glm::mix(a, b, t));
@@ -72,7 +92,7 @@ struct RecordedMetric {
   }
   void merge(std::uint32_t u, std::uint32_t v) {
     if constexpr (requires { metric.texcoord(); })
-      if (metric.texcoord()) return recorder.merge(*metric.texcoord());
+      if (last_way == Way::free && metric.texcoord()) return recorder.merge(*metric.texcoord());
     if (kPlaces || refuse_folds || charts)
       recorder.merge(mesh, u, v, kPlaces ? last_place : glm::vec3(0));
   }

@@ -20,7 +20,7 @@ class Recorder {
 
   /// Whether u may collapse into v for what stands at their wedges, see WedgeTable::match.
   bool match(const CollapseMesh& mesh, std::uint32_t u, std::uint32_t v) {
-    return table_.match(mesh, u, v, is_full_);
+    return table_.match(mesh, u, v);
   }
   /// After match(): the texture coordinates that its pairs get. place: where both go, or v for a
   /// half-edge collapse. A full-edge collapse takes them as far towards the child's as the place is

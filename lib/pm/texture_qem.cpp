@@ -47,36 +47,46 @@ void TextureQuadrics::merge(std::uint32_t u, std::uint32_t v,
   boundaries[v].add(boundaries[u]);
 }
 
-float TextureQemMetric::cost(std::uint32_t u, std::uint32_t v) {
-  if (!wedges_.match(mesh_, u, v, false)) return std::numeric_limits<float>::infinity();
-  const glm::dvec3 place = glm::dvec3(quadrics_.positions[v]) - quadrics_.centre;
-  double value = quadrics_.boundaries[u].value(place) + quadrics_.boundaries[v].value(place);
-  double weight = quadrics_.boundaries[u].weight + quadrics_.boundaries[v].weight;
+float TextureQuadrics::cost_in_place(const CollapseMesh& mesh, const WedgeTable& wedges,
+                                     std::uint32_t u, std::uint32_t v) const {
+  const glm::dvec3 place = glm::dvec3(positions[v]) - centre;
+  double value = boundaries[u].value(place) + boundaries[v].value(place);
+  double weight = boundaries[u].weight + boundaries[v].weight;
   const auto add_wedge = [&](std::uint32_t of, std::uint32_t at) {
-    value += quadrics_.of_wedges[of].value(quadrics_.point(v, at));
-    weight += quadrics_.of_wedges[of].weight;
+    value += of_wedges[of].value(point(v, at));
+    weight += of_wedges[of].weight;
   };
-  others_.clear();
-  for (const auto& [from, to] : wedges_.pairs()) {
+  std::vector<std::uint32_t> met;  // wedges of v
+  const auto meet = [&](std::uint32_t wedge) {
+    if (std::find(met.begin(), met.end(), wedge) != met.end()) return;
+    add_wedge(wedge, wedge);
+    met.push_back(wedge);
+  };
+  for (const auto& [from, to] : wedges.pairs()) {
     add_wedge(from, to);
-    if (std::find(others_.begin(), others_.end(), to) != others_.end()) continue;
-    add_wedge(to, to);
-    others_.push_back(to);
+    meet(to);
   }
-  mesh_.for_each_corner(v, [&](std::uint32_t c) {
-    const std::uint32_t w = wedges_.at(c);
-    if (std::find(others_.begin(), others_.end(), w) != others_.end()) return;
-    add_wedge(w, w);
-    others_.push_back(w);
-  });
-  return quadrics_.cost_scale.cost(value, weight);
+  mesh.for_each_corner(v, [&](std::uint32_t c) { meet(wedges.at(c)); });
+  return cost_scale.cost(value, weight);
+}
+
+float TextureQemMetric::cost(std::uint32_t u, std::uint32_t v) {
+  if (!wedges_.match(mesh_, u, v)) return std::numeric_limits<float>::infinity();
+  return quadrics_.cost_in_place(mesh_, wedges_, u, v);
 }
 
 const TextureQemFullMetric::Evaluated& TextureQemFullMetric::evaluate(std::uint32_t u,
                                                                       std::uint32_t v) {
-  if (u > v) std::swap(u, v);  // the same sums from either side
   last_ = {std::numeric_limits<float>::infinity(), positions_[v], {}};
-  if (!wedges_.match(mesh_, u, v, true)) return last_;
+  if (!wedges_.match(mesh_, u, v)) return last_;
+  if (!wedges_.can_move(mesh_, v)) {
+    last_.cost = quadrics_.cost_in_place(mesh_, wedges_, u, v);
+    return last_;
+  }
+  if (u > v) {  // the same sums from either side
+    std::swap(u, v);
+    wedges_.match(mesh_, u, v);
+  }
   wedges_.pairs().size() == 1 ? place_freely(u, v) : place_on_edge(u, v);
   return last_;
 }

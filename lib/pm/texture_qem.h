@@ -32,6 +32,9 @@ struct TextureQuadrics {
   TextureQuadrics(const WedgeMesh& input, std::span<const glm::vec3> positions,
                   const std::vector<glm::vec2>& texcoords, const TextureQemOptions& options);
   Vec5 point(std::uint32_t vertex, std::uint32_t wedge) const;
+  /// What u costs in v's place, for each wedge where the table has matched it last.
+  float cost_in_place(const CollapseMesh& mesh, const WedgeTable& wedges, std::uint32_t u,
+                      std::uint32_t v) const;
   /// u has collapsed into v.
   void merge(std::uint32_t u, std::uint32_t v, const std::vector<WedgeTable::Pair>& pairs);
 };
@@ -56,11 +59,10 @@ class TextureQemMetric {
   const CollapseMesh& mesh_;
   WedgeTable& wedges_;
   TextureQuadrics quadrics_;
-  std::vector<std::uint32_t> others_;  // scratch: wedges of v that no wedge of u goes to
 };
 
 /// Full-edge collapses into the position and texture coordinates where the quadrics' sum is least;
-/// along chart borders, and where the charts do not match, on the edge. Moves positions.
+/// along chart borders, on the edge; from inside a chart to its border, at v. Moves positions.
 /// Follows: [Garland, Heckbert 1998].
 class TextureQemFullMetric {
  public:

@@ -209,11 +209,9 @@ WedgeTable::WedgeTable(const WedgeMesh& mesh) : has_charts_(!mesh.texcoords.empt
   for (const Triangle& face : mesh.faces) corners_.insert(corners_.end(), face.begin(), face.end());
 }
 
-bool WedgeTable::add_pair(const Pair& pair, bool full) {
-  for (const Pair& p : pairs_) {
+bool WedgeTable::add_pair(const Pair& pair) {
+  for (const Pair& p : pairs_)
     if (p.from == pair.from) return !has_charts_ || p.to == pair.to;
-    if (full && has_charts_ && p.to == pair.to) return false;
-  }
   pairs_.push_back(pair);
   return true;
 }
@@ -221,31 +219,37 @@ bool WedgeTable::add_pair(const Pair& pair, bool full) {
 // Wedges of u at triangles that live on only.
 void WedgeTable::pair_rest(const CollapseMesh& mesh, std::uint32_t u) {
   mesh.for_each_corner(u, [&](std::uint32_t c) {
-    if (!pairs_.empty()) add_pair({corners_[c], pairs_[0].to}, false);
+    if (!pairs_.empty()) add_pair({corners_[c], pairs_[0].to});
   });
 }
 
-bool WedgeTable::match(const CollapseMesh& mesh, std::uint32_t u, std::uint32_t v, bool full) {
+bool WedgeTable::match(const CollapseMesh& mesh, std::uint32_t u, std::uint32_t v) {
   pairs_.clear();
   bool fits = true;
   mesh.for_each_corner(u, [&](std::uint32_t c) {
     const std::uint32_t t = 3 * (c / 3);
     for (std::uint32_t other = t; other < t + 3; ++other)
-      if (mesh.vertex_at(other) == v) fits = fits && add_pair({corners_[c], corners_[other]}, full);
+      if (mesh.vertex_at(other) == v) fits = fits && add_pair({corners_[c], corners_[other]});
   });
   if (!has_charts_) {
     pair_rest(mesh, u);
     return true;
   }
-  const auto all_met = [&](std::uint32_t vertex, std::uint32_t Pair::*side) {
-    mesh.for_each_corner(vertex, [&](std::uint32_t c) {
-      fits = fits && std::any_of(pairs_.begin(), pairs_.end(),
-                                 [&](const Pair& p) { return p.*side == corners_[c]; });
-    });
-  };
-  all_met(u, &Pair::from);
-  if (full) all_met(v, &Pair::to);
+  mesh.for_each_corner(u, [&](std::uint32_t c) {
+    fits = fits && std::any_of(pairs_.begin(), pairs_.end(),
+                               [&](const Pair& p) { return p.from == corners_[c]; });
+  });
   return fits;
+}
+
+bool WedgeTable::can_move(const CollapseMesh& mesh, std::uint32_t v) const {
+  bool can = true;
+  if (has_charts_)
+    mesh.for_each_corner(v, [&](std::uint32_t c) {
+      can = can && std::count_if(pairs_.begin(), pairs_.end(),
+                                 [&](const Pair& p) { return p.to == corners_[c]; }) == 1;
+    });
+  return can;
 }
 
 void WedgeTable::apply(const CollapseTrace& trace) {

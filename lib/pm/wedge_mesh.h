@@ -49,15 +49,17 @@ class WedgeTable {
 
   /// For the collapse u -> v, which wedge of v takes over from each wedge of u: the pairs at the
   /// triangles that would die. False when some wedge of u has none, or two: u would leave the
-  /// boundary of its texture chart. full: each wedge of v must be met by just one of u, too, for v
-  /// moves as well. Without texture coordinates there are no charts, and the first pair serves all.
-  bool match(const CollapseMesh& mesh, std::uint32_t u, std::uint32_t v, bool full);
+  /// boundary of its texture chart. Without texture coordinates there are no charts, and the first
+  /// pair serves all.
+  bool match(const CollapseMesh& mesh, std::uint32_t u, std::uint32_t v);
   const std::vector<Pair>& pairs() const { return pairs_; }
+  /// After match(): whether v may move as well, for each of its wedges is met by just one of u.
+  bool can_move(const CollapseMesh& mesh, std::uint32_t v) const;
   /// Gives the moved corners the wedges of the last match, which must have been this collapse.
   void apply(const CollapseTrace& trace);
 
  private:
-  bool add_pair(const Pair& pair, bool full);
+  bool add_pair(const Pair& pair);
   void pair_rest(const CollapseMesh& mesh, std::uint32_t u);
   bool has_charts_;
   LargeVector<std::uint32_t> corners_;

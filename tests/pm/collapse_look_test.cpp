@@ -149,7 +149,7 @@ TEST(MappingMetric, CostsAreNotBelowTheirEstimates) {
       }
       for (const std::uint32_t v : ring)
         if (u % 3 == 0 && parts.mesh.check(u, v, 0) == Refusal::none &&
-            parts.table.match(parts.mesh, u, v, false) && metric.allows(parts.mesh, u, v)) {
+            parts.table.match(parts.mesh, u, v) && metric.allows(parts.mesh, u, v)) {
           CollapseTrace trace;
           parts.mesh.collapse(u, v, &trace);
           parts.table.apply(trace);

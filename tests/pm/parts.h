@@ -44,7 +44,7 @@ struct Parts {
         mesh(wedges.positions, triangles),
         table(wedges) {}
   bool turns_over(std::uint32_t u, std::uint32_t v) {
-    if (!table.match(mesh, u, v, false)) return false;
+    if (!table.match(mesh, u, v)) return false;
     std::vector<glm::vec2> merged;
     for (const auto& pair : table.pairs()) merged.push_back(wedges.texcoords[pair.to]);
     return turns_over_texture(mesh, table, wedges.texcoords, u, v, merged, false);
