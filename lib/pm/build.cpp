@@ -94,9 +94,9 @@ CollapseCounts run_metric(CollapseMesh& mesh, WedgeMesh& wedges,
   };
   if (options.metric == MetricKind::mapping && options.placement == Placement::full) {
     if (options.measure == Measure::mean)
-      return run(MappingFullMetric(mesh, recorder.table(), positions,
+      return run(MappingFullMetric(mesh, recorder.table(), positions, recorder.texcoords(),
                                    DeviationMoments(positions, triangles), options.lt));
-    return run(MappingFullMetric(mesh, recorder.table(), positions,
+    return run(MappingFullMetric(mesh, recorder.table(), positions, recorder.texcoords(),
                                  DeviationBoxes(triangles.size()), options.lt));
   }
   if (options.metric == MetricKind::aps || options.metric == MetricKind::mapping)

@@ -16,11 +16,14 @@ namespace viewcell {
 template <typename Deviations>
 class CollapseLook {
  public:
-  /// Keeps references.
+  /// Keeps references. texcoords: of wedges, for maps that keep to texture charts; empty: charts
+  /// do not matter.
   CollapseLook(const CollapseMesh& mesh, const WedgeTable& wedges,
-               std::span<const glm::vec3> positions, Deviations deviations)
+               std::span<const glm::vec3> positions, Deviations deviations,
+               std::span<const glm::vec2> texcoords = {})
       : positions_(positions),
-        map_(mesh, wedges, positions, {}, Matching::nearest, {.moments = Deviations::kMoments}),
+        map_(mesh, wedges, positions, texcoords, Matching::nearest,
+             {.moments = Deviations::kMoments}),
         deviations_(std::move(deviations)) {}
 
   /// Deviations::cost() of the collapse; infinite when it has no map.

@@ -69,10 +69,12 @@ class MappingFullMetric {
  public:
   static constexpr int kReach = 2;
 
-  /// Keeps references; moves positions.
+  /// Keeps references; moves positions. texcoords: of wedges; empty without.
   MappingFullMetric(CollapseMesh& mesh, const WedgeTable& wedges, std::span<glm::vec3> positions,
-                    Deviations deviations, const LindstromTurkOptions& options = {})
-      : places_(mesh, positions, options), look_(mesh, wedges, positions, std::move(deviations)) {}
+                    std::span<const glm::vec2> texcoords, Deviations deviations,
+                    const LindstromTurkOptions& options = {})
+      : places_(mesh, positions, options),
+        look_(mesh, wedges, positions, std::move(deviations), texcoords) {}
 
   float cost(std::uint32_t u, std::uint32_t v) { return cost_at(u, v, places_.place(u, v)); }
   float cost_at(std::uint32_t u, std::uint32_t v, const glm::vec3& place) {
