@@ -38,6 +38,7 @@ Finest make_finest(const ProgressiveMesh& mesh) {
   for (std::size_t w = 0; w < record.texcoords.size(); ++w)
     out.wedges.wedge_vertex.push_back(record.vertex_of[w < n ? w : record.extra_sources[w - n]]);
   out.wedges.faces = record.faces;
+  find_texture_vertices(out.wedges);
   out.triangles = out.wedges.vertex_triangles();
   out.charts = find_charts(out.wedges);
   for (const std::uint32_t chart : out.charts)

@@ -48,9 +48,11 @@ void ChartGuard::gather(const CollapseMesh& mesh, const WedgeTable& wedges,
     }
     if (dies && is_parent) return;
     const auto& pairs = wedges.pairs();
-    while (face.pair < pairs.size() &&
-           (is_parent ? pairs[face.pair].to : pairs[face.pair].from) != wedges.at(c))
-      ++face.pair;
+    const auto is_met = [&](const WedgeTable::Pair& p) {
+      return wedges.texture_vertex(is_parent ? p.to : p.from) ==
+             wedges.texture_vertex(wedges.at(c));
+    };
+    while (face.pair < pairs.size() && !is_met(pairs[face.pair])) ++face.pair;
     before_.push_back(face);
     if (dies) return;
     if (face.pair < merged.size())

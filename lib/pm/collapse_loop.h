@@ -47,7 +47,8 @@ inline Refusal as_refusal(Refusal refusal) {
 /// - void collapsed(u, v): told after it.
 /// For full-edge collapses:
 /// - glm::vec3 place(u, v): where both go; cost and place are the same for (u, v) and (v, u);
-/// - bool may_collapse(u, v), if there is one: whether u may be what goes; without it the lower one;
+/// - bool may_collapse(u, v), if there is one: whether u may be what goes; without it the lower
+/// one;
 /// - bool stays(), if there is one: whether v stays where it is in the collapse placed last;
 /// - void collapsed(u, v, place): moves v.
 /// Metric::kReach (1 where there is none): 1 when a collapse u -> v changes costs of pairs with v

@@ -11,16 +11,18 @@ bool CollapseStar::gather(std::uint32_t u) {
   spokes_.clear(), rim_.clear(), sectors_.clear(), faces_.clear();
   mesh_.for_each_corner(u, [&](std::uint32_t c) {
     const std::uint32_t t = 3 * (c / 3), a = t + (c + 1 - t) % 3, b = t + (c + 2 - t) % 3;
+    const std::uint32_t wedge = wedges_.at(c);
     spokes_.push_back({c / 3, mesh_.vertex_at(a), mesh_.vertex_at(b),
-                       texcoords_.empty() ? 0 : wedges_.at(c), wedges_.at(a), wedges_.at(b)});
+                       texcoords_.empty() ? 0 : wedges_.texture_vertex(wedge), wedge, wedges_.at(a),
+                       wedges_.at(b)});
   });
   // by texture chart; the order within does not matter
-  const auto chart_before = [](const Spoke& x, const Spoke& y) { return x.wedge_u < y.wedge_u; };
+  const auto chart_before = [](const Spoke& x, const Spoke& y) { return x.chart < y.chart; };
   if (!std::is_sorted(spokes_.begin(), spokes_.end(), chart_before))
     std::stable_sort(spokes_.begin(), spokes_.end(), chart_before);
   rim_.reserve(2 * spokes_.size());  // sectors point into it
   for (std::size_t first = 0, last = 0; first < spokes_.size(); first = last) {
-    while (last < spokes_.size() && spokes_[last].wedge_u == spokes_[first].wedge_u) ++last;
+    while (last < spokes_.size() && spokes_[last].chart == spokes_[first].chart) ++last;
     if (!order(first, last)) return false;
   }
   return is_legal_ = !spokes_.empty();

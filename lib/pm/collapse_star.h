@@ -27,7 +27,7 @@ class CollapseStar {
     std::span<const Rim> rim;
     bool is_closed = false;
     glm::dvec2 origin{0};     ///< u in the texture
-    std::uint32_t wedge = 0;  ///< of u
+    std::uint32_t wedge = 0;  ///< of u; one of them
   };
 
   /// Keeps references. texcoords: of wedges; empty: charts do not matter.
@@ -47,8 +47,8 @@ class CollapseStar {
 
  private:
   static constexpr std::uint32_t kNone = 0xffffffffu;
-  struct Spoke {  // a triangle (u, a, b)
-    std::uint32_t face, a, b, wedge_u, wedge_a, wedge_b;
+  struct Spoke {                                                 // a triangle (u, a, b)
+    std::uint32_t face, a, b, chart, wedge_u, wedge_a, wedge_b;  // chart: u's texture vertex
   };
   bool order(std::size_t first, std::size_t last);
   bool meets_each_once(std::size_t first) const;

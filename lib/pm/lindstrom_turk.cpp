@@ -201,8 +201,7 @@ LindstromTurkMetric::Quadratic LindstromTurkMetric::make_shape(std::uint32_t u,
   return shape;
 }
 
-glm::dvec3 LindstromTurkMetric::least(std::uint32_t u, std::uint32_t v,
-                                      const Sums& sums) const {
+glm::dvec3 LindstromTurkMetric::least(std::uint32_t u, std::uint32_t v, const Sums& sums) const {
   Constraints constraints(cosine2_, sine2_);
   Quadratic both;
   both.add(sums.volume, options_.volume_weight / 36);

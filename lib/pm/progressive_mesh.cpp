@@ -21,13 +21,16 @@ float ProgressiveMesh::error() const {
   return level_ < n_splits() ? record_.splits[level_].error : 0;
 }
 
-// The parent as before and as after the collapse change places with the record.
-void ProgressiveMesh::swap_stash(const VertexSplit& split, std::size_t first_pair) {
+// The parent as before and as after the collapse change places with the record. A wedge of the
+// parent in several pairs was stashed as they follow each other, so splits go against their order.
+void ProgressiveMesh::swap_stash(const VertexSplit& split, std::size_t first_pair, bool is_split) {
   if (!record_.is_full_edge()) return;
   std::swap(record_.attributes.positions[split.parent], record_.parent_positions[level_]);
   if (record_.texcoords.empty()) return;
-  for (std::size_t i = first_pair; i < first_pair + split.n_pairs; ++i)
+  for (std::size_t k = 0; k < split.n_pairs; ++k) {
+    const std::size_t i = first_pair + (is_split ? split.n_pairs - 1 - k : k);
     std::swap(record_.texcoords[record_.pairs[i].parent], record_.parent_texcoords[i]);
+  }
 }
 
 void ProgressiveMesh::refine() {
@@ -39,7 +42,7 @@ void ProgressiveMesh::refine() {
   }
   for (std::size_t i = at_born_; i < at_born_ + split.n_born; ++i)
     is_alive_[record_.born[i]] = true;
-  swap_stash(split, at_pair_);
+  swap_stash(split, at_pair_, true);
   at_moved_ += split.n_moved, at_born_ += split.n_born, at_pair_ += split.n_pairs;
   n_faces_ += split.n_born;
   ++level_;
@@ -57,7 +60,7 @@ void ProgressiveMesh::coarsen() {
   }
   for (std::size_t i = at_born_; i < at_born_ + split.n_born; ++i)
     is_alive_[record_.born[i]] = false;
-  swap_stash(split, at_pair_);
+  swap_stash(split, at_pair_, false);
 }
 
 void ProgressiveMesh::set_faces(std::size_t n) {

@@ -92,7 +92,7 @@ class ProgressiveMesh {
 
  private:
   std::uint32_t source_of(std::uint32_t wedge) const;
-  void swap_stash(const VertexSplit& split, std::size_t first_pair);
+  void swap_stash(const VertexSplit& split, std::size_t first_pair, bool is_split);
 
   ProgressiveRecord record_;
   std::vector<bool> is_alive_;  // by face

@@ -49,8 +49,8 @@ struct RecordedMetric {
   Way find_way(std::uint32_t u, std::uint32_t v) requires kPlaces {
     if (recorder.texcoords().empty()) return Way::free;
     if (!recorder.match(mesh, u, v)) return Way::none;
-    if (!recorder.table().can_move(mesh, v)) return Way::to_end;
-    return recorder.table().pairs().size() < 2 ? Way::free : Way::along;
+    if (!recorder.table().match_both(mesh, v)) return Way::to_end;
+    return recorder.table().texture_pairs().size() < 2 ? Way::free : Way::along;
   }
   bool may_collapse(std::uint32_t u, std::uint32_t v) requires kPlaces {
     const Way way = find_way(u, v);
@@ -69,6 +69,8 @@ struct RecordedMetric {
   }
   Refusal allows(const CollapseMesh&, std::uint32_t u, std::uint32_t v) {
     if (!recorder.match(mesh, u, v)) return Refusal::chart;
+    if constexpr (kPlaces)
+      if (!stays()) recorder.table().match_both(mesh, v);
     if (kPlaces && is_astray(u, v)) return Refusal::metric;
     merge(u, v);
     if (refuse_folds && recorder.folds(mesh, u, v)) return Refusal::fold;

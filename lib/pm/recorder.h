@@ -26,8 +26,8 @@ class Recorder {
   /// half-edge collapse. A full-edge collapse takes them as far towards the child's as the place is
   /// along the edge.
   void merge(const CollapseMesh& mesh, std::uint32_t u, std::uint32_t v, const glm::vec3& place);
-  /// The same for the only pair, by whoever knows better.
-  void merge(const glm::vec2& texcoord) { merged_.assign(1, texcoord); }
+  /// The same for the only texture vertices, by whoever knows better.
+  void merge(const glm::vec2& texcoord) { merged_.assign(table_.pairs().size(), texcoord); }
   /// Whether the collapse merged last turns a triangle over in the texture.
   bool folds(const CollapseMesh& mesh, std::uint32_t u, std::uint32_t v) const {
     return !texcoords_.empty() &&

@@ -31,7 +31,7 @@ TextureQuadrics::TextureQuadrics(const WedgeMesh& input, std::span<const glm::ve
     const auto corner = [&](std::size_t k) { return point(triangles[f][k], input.faces[f][k]); };
     Quadric5 plane;
     plane.add_triangle(corner(0), corner(1), corner(2), options.qem.area_weighted ? area / 3 : 1);
-    for (const std::uint32_t w : input.faces[f]) of_wedges[w].add(plane);
+    for (const std::uint32_t w : input.faces[f]) of_wedges[input.texture_vertex[w]].add(plane);
   }
 }
 
@@ -41,9 +41,9 @@ Vec5 TextureQuadrics::point(std::uint32_t vertex, std::uint32_t wedge) const {
   return {p.x, p.y, p.z, t.x, t.y};
 }
 
-void TextureQuadrics::merge(std::uint32_t u, std::uint32_t v,
-                            const std::vector<WedgeTable::Pair>& pairs) {
-  for (const auto& [from, to] : pairs) of_wedges[to].add(of_wedges[from]);
+void TextureQuadrics::merge(std::uint32_t u, std::uint32_t v, const WedgeTable& wedges) {
+  for (const auto& [from, to] : wedges.texture_pairs())
+    of_wedges[wedges.texture_vertex(to)].add(of_wedges[wedges.texture_vertex(from)]);
   boundaries[v].add(boundaries[u]);
 }
 
@@ -53,16 +53,18 @@ float TextureQuadrics::cost_in_place(const CollapseMesh& mesh, const WedgeTable&
   double value = boundaries[u].value(place) + boundaries[v].value(place);
   double weight = boundaries[u].weight + boundaries[v].weight;
   const auto add_wedge = [&](std::uint32_t of, std::uint32_t at) {
-    value += of_wedges[of].value(point(v, at));
-    weight += of_wedges[of].weight;
+    const Quadric5& quadric = of_wedges[wedges.texture_vertex(of)];
+    value += quadric.value(point(v, at));
+    weight += quadric.weight;
   };
-  std::vector<std::uint32_t> met;  // wedges of v
+  std::vector<std::uint32_t> met;  // texture vertices of v
   const auto meet = [&](std::uint32_t wedge) {
-    if (std::find(met.begin(), met.end(), wedge) != met.end()) return;
+    const std::uint32_t vertex = wedges.texture_vertex(wedge);
+    if (std::find(met.begin(), met.end(), vertex) != met.end()) return;
     add_wedge(wedge, wedge);
-    met.push_back(wedge);
+    met.push_back(vertex);
   };
-  for (const auto& [from, to] : wedges.pairs()) {
+  for (const auto& [from, to] : wedges.texture_pairs()) {
     add_wedge(from, to);
     meet(to);
   }
@@ -79,22 +81,22 @@ const TextureQemFullMetric::Evaluated& TextureQemFullMetric::evaluate(std::uint3
                                                                       std::uint32_t v) {
   last_ = {std::numeric_limits<float>::infinity(), positions_[v], {}};
   if (!wedges_.match(mesh_, u, v)) return last_;
-  if (!wedges_.can_move(mesh_, v)) {
+  if (!wedges_.match_both(mesh_, v)) {
     last_.cost = quadrics_.cost_in_place(mesh_, wedges_, u, v);
     return last_;
   }
   if (u > v) {  // the same sums from either side
     std::swap(u, v);
-    wedges_.match(mesh_, u, v);
+    wedges_.match(mesh_, u, v) && wedges_.match_both(mesh_, v);
   }
-  wedges_.pairs().size() == 1 ? place_freely(u, v) : place_on_edge(u, v);
+  wedges_.texture_pairs().size() == 1 ? place_freely(u, v) : place_on_edge(u, v);
   return last_;
 }
 
 void TextureQemFullMetric::place_freely(std::uint32_t u, std::uint32_t v) {
-  const auto [from, to] = wedges_.pairs()[0];
-  Quadric5 sum = quadrics_.of_wedges[from];
-  sum.add(quadrics_.of_wedges[to]);
+  const auto [from, to] = wedges_.texture_pairs()[0];
+  Quadric5 sum = quadrics_.of_wedges[wedges_.texture_vertex(from)];
+  sum.add(quadrics_.of_wedges[wedges_.texture_vertex(to)]);
   sum.add(quadrics_.boundaries[u]);
   sum.add(quadrics_.boundaries[v]);
   const Vec5 a = quadrics_.point(u, from), b = quadrics_.point(v, to);
@@ -115,12 +117,12 @@ void TextureQemFullMetric::place_on_edge(std::uint32_t u, std::uint32_t v) {
     const auto add = [&](const Quadric5& quadric, const Vec5& x) {
       value += quadric.value(x), weight += quadric.weight;
     };
-    for (const auto& [from, to] : wedges_.pairs()) {
+    for (const auto& [from, to] : wedges_.texture_pairs()) {
       const Vec5 a = quadrics_.point(u, from);
       Vec5 x = quadrics_.point(v, to);
       for (std::size_t i = 0; i < 5; ++i) x[i] += along * (a[i] - x[i]);
-      add(quadrics_.of_wedges[from], x);
-      add(quadrics_.of_wedges[to], x);
+      for (const std::uint32_t w : {from, to})
+        add(quadrics_.of_wedges[wedges_.texture_vertex(w)], x);
     }
     const glm::dvec3 p =
         glm::mix(glm::dvec3(positions_[v]), glm::dvec3(positions_[u]), along) - quadrics_.centre;

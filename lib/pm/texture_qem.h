@@ -18,15 +18,15 @@ struct TextureQemOptions {
   double texture_weight = 1;
 };
 
-/// What both placements share: each wedge gathers the planes of its own faces, so that texture
-/// charts do not mix. Boundary edges are held in space, as in qem3. Keeps references.
+/// What both placements share: each texture vertex gathers the planes of its own faces, so that
+/// texture charts do not mix. Boundary edges are held in space, as in qem3. Keeps references.
 struct TextureQuadrics {
   std::span<const glm::vec3> positions;
   const std::vector<glm::vec2>& texcoords;  ///< of wedges, as they are now
   glm::dvec3 centre;                        ///< of the box: positions are relative to it
   double scale = 0;                         ///< of texture coordinates
   QuadricScale cost_scale;
-  LargeVector<Quadric5> of_wedges;
+  LargeVector<Quadric5> of_wedges;  ///< by texture vertex
   LargeVector<Quadric> boundaries;  ///< by vertex
 
   TextureQuadrics(const WedgeMesh& input, std::span<const glm::vec3> positions,
@@ -35,8 +35,8 @@ struct TextureQuadrics {
   /// What u costs in v's place, for each wedge where the table has matched it last.
   float cost_in_place(const CollapseMesh& mesh, const WedgeTable& wedges, std::uint32_t u,
                       std::uint32_t v) const;
-  /// u has collapsed into v.
-  void merge(std::uint32_t u, std::uint32_t v, const std::vector<WedgeTable::Pair>& pairs);
+  /// u has collapsed into v, as the table has matched it last.
+  void merge(std::uint32_t u, std::uint32_t v, const WedgeTable& wedges);
 };
 
 /// Half-edge collapses; wedges go to the wedges of v in their charts.
@@ -51,7 +51,7 @@ class TextureQemMetric {
   float cost(std::uint32_t u, std::uint32_t v);
   bool allows(const CollapseMesh&, std::uint32_t, std::uint32_t) const { return true; }
   void traced(std::uint32_t u, std::uint32_t v, const CollapseTrace&) {
-    quadrics_.merge(u, v, wedges_.pairs());
+    quadrics_.merge(u, v, wedges_);
   }
   void collapsed(std::uint32_t, std::uint32_t) {}
 
@@ -82,7 +82,7 @@ class TextureQemFullMetric {
   const std::optional<glm::vec2>& texcoord() const { return last_.texcoord; }
   bool allows(const CollapseMesh&, std::uint32_t, std::uint32_t) const { return true; }
   void traced(std::uint32_t u, std::uint32_t v, const CollapseTrace&) {
-    quadrics_.merge(u, v, wedges_.pairs());
+    quadrics_.merge(u, v, wedges_);
   }
   void collapsed(std::uint32_t, std::uint32_t v, const glm::vec3& place) { positions_[v] = place; }
 

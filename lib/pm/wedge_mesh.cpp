@@ -10,6 +10,9 @@
 namespace viewcell {
 namespace {
 
+// A split's pairs are numbered in a byte.
+constexpr std::size_t kMostPairs = 256;
+
 // Wedges of the faces' corners; the first texture coordinates met at a vertex of the file are those
 // of the wedge with its number.
 void add_texcoords(const TriMesh& mesh, WedgeMesh& out) {
@@ -163,93 +166,113 @@ WedgeMesh make_wedges(const TriMesh& mesh, bool along_curve) {
     out.faces.push_back(mesh.triangles[t]);
     out.face_source.push_back(t);
   }
-  if (!mesh.texcoords.empty()) add_texcoords(mesh, out);
+  if (!mesh.texcoords.empty()) {
+    add_texcoords(mesh, out);
+    find_texture_vertices(out);
+  }
   out.vertex_source = identity(n);
   out.face_place = identity(static_cast<std::uint32_t>(out.faces.size()));
   if (along_curve) order_along_curve(order, out);
   return out;
 }
 
+void find_texture_vertices(WedgeMesh& mesh) {
+  constexpr std::uint32_t kNone = 0xffffffffu;
+  const auto n = static_cast<std::uint32_t>(mesh.n_wedges());
+  mesh.texture_vertex.resize(n);
+  // The texture vertices of a vertex, one after another.
+  std::vector<std::uint32_t> first(n, kNone), next(n, kNone);
+  for (std::uint32_t w = 0; w < n; ++w) {
+    std::uint32_t* at = &first[mesh.wedge_vertex[w]];
+    while (*at != kNone && mesh.texcoords[*at] != mesh.texcoords[w]) at = &next[*at];
+    if (*at == kNone) *at = w;
+    mesh.texture_vertex[w] = *at;
+  }
+}
+
 std::vector<std::uint32_t> find_charts(const WedgeMesh& mesh) {
-  std::vector<std::uint32_t> parent(mesh.n_wedges());
-  std::iota(parent.begin(), parent.end(), 0u);
+  std::vector<std::uint32_t> parent = identity(static_cast<std::uint32_t>(mesh.n_wedges()));
   const auto root = [&](std::uint32_t w) {
     while (parent[w] != w) w = parent[w] = parent[parent[w]];
     return w;
   };
   const auto join = [&](std::uint32_t a, std::uint32_t b) {
-    a = root(a), b = root(b);
+    a = root(mesh.texture_vertex[a]), b = root(mesh.texture_vertex[b]);
     parent[std::max(a, b)] = std::min(a, b);
   };
   for (const Triangle& f : mesh.faces) join(f[0], f[1]), join(f[0], f[2]);
-  // Wedges may differ in normals or colours alone.
-  std::vector<std::uint32_t> order(mesh.n_wedges());
-  std::iota(order.begin(), order.end(), 0u);
-  const auto key = [&](std::uint32_t w) {
-    return std::tuple(mesh.wedge_vertex[w], mesh.texcoords[w].x, mesh.texcoords[w].y, w);
-  };
-  std::sort(order.begin(), order.end(), [&](auto a, auto b) { return key(a) < key(b); });
-  for (std::size_t i = 1; i < order.size(); ++i)
-    if (mesh.wedge_vertex[order[i]] == mesh.wedge_vertex[order[i - 1]] &&
-        mesh.texcoords[order[i]] == mesh.texcoords[order[i - 1]])
-      join(order[i], order[i - 1]);
   constexpr std::uint32_t kNone = 0xffffffffu;
   std::vector<std::uint32_t> chart_of(mesh.n_wedges(), kNone), charts;
   std::uint32_t n_charts = 0;
   for (const Triangle& f : mesh.faces) {
-    std::uint32_t& chart = chart_of[root(f[0])];
+    std::uint32_t& chart = chart_of[root(mesh.texture_vertex[f[0]])];
     if (chart == kNone) chart = n_charts++;
     charts.push_back(chart);
   }
   return charts;
 }
 
-WedgeTable::WedgeTable(const WedgeMesh& mesh) : has_charts_(!mesh.texcoords.empty()) {
+WedgeTable::WedgeTable(const WedgeMesh& mesh) : texture_vertex_(mesh.texture_vertex) {
   corners_.reserve(3 * mesh.faces.size());
   for (const Triangle& face : mesh.faces) corners_.insert(corners_.end(), face.begin(), face.end());
 }
 
 bool WedgeTable::add_pair(const Pair& pair) {
-  for (const Pair& p : pairs_)
-    if (p.from == pair.from) return !has_charts_ || p.to == pair.to;
-  pairs_.push_back(pair);
+  const std::uint32_t from = texture_vertex(pair.from), to = texture_vertex(pair.to);
+  const auto same = [&](const Pair& p) { return texture_vertex(p.from) == from; };
+  const auto met = std::find_if(texture_pairs_.begin(), texture_pairs_.end(), same);
+  if (met == texture_pairs_.end())
+    texture_pairs_.push_back(pair);
+  else if (texture_vertex(met->to) != to)
+    return false;
+  if (std::none_of(pairs_.begin(), pairs_.end(),
+                   [&](const Pair& p) { return p.from == pair.from; }))
+    pairs_.push_back(pair);
   return true;
 }
 
 // Wedges of u at triangles that live on only.
-void WedgeTable::pair_rest(const CollapseMesh& mesh, std::uint32_t u) {
+bool WedgeTable::pair_rest(const CollapseMesh& mesh, std::uint32_t u) {
+  bool fits = true;
   mesh.for_each_corner(u, [&](std::uint32_t c) {
-    if (!pairs_.empty()) add_pair({corners_[c], pairs_[0].to});
+    const std::uint32_t from = corners_[c];
+    const auto same = [&](const Pair& p) { return texture_vertex(p.from) == texture_vertex(from); };
+    const auto met = std::find_if(texture_pairs_.begin(), texture_pairs_.end(), same);
+    fits = fits && met != texture_pairs_.end() && add_pair({from, met->to});
   });
+  return fits;
 }
 
 bool WedgeTable::match(const CollapseMesh& mesh, std::uint32_t u, std::uint32_t v) {
-  pairs_.clear();
+  pairs_.clear(), texture_pairs_.clear();
   bool fits = true;
   mesh.for_each_corner(u, [&](std::uint32_t c) {
     const std::uint32_t t = 3 * (c / 3);
     for (std::uint32_t other = t; other < t + 3; ++other)
       if (mesh.vertex_at(other) == v) fits = fits && add_pair({corners_[c], corners_[other]});
   });
-  if (!has_charts_) {
-    pair_rest(mesh, u);
-    return true;
-  }
-  mesh.for_each_corner(u, [&](std::uint32_t c) {
-    fits = fits && std::any_of(pairs_.begin(), pairs_.end(),
-                               [&](const Pair& p) { return p.from == corners_[c]; });
-  });
-  return fits;
+  return fits && pair_rest(mesh, u) && pairs_.size() <= kMostPairs;
 }
 
-bool WedgeTable::can_move(const CollapseMesh& mesh, std::uint32_t v) const {
-  bool can = true;
-  if (has_charts_)
-    mesh.for_each_corner(v, [&](std::uint32_t c) {
-      can = can && std::count_if(pairs_.begin(), pairs_.end(),
-                                 [&](const Pair& p) { return p.to == corners_[c]; }) == 1;
-    });
-  return can;
+bool WedgeTable::match_both(const CollapseMesh& mesh, std::uint32_t v) {
+  if (texture_vertex_.empty()) return true;
+  const std::size_t n_pairs = pairs_.size();
+  bool fits = true;
+  mesh.for_each_corner(v, [&](std::uint32_t c) {
+    const std::uint32_t to = corners_[c], to_vertex = texture_vertex(to);
+    const Pair* met = nullptr;
+    for (const Pair& p : texture_pairs_) {
+      if (texture_vertex(p.to) != to_vertex) continue;
+      fits = fits && met == nullptr;
+      met = &p;
+    }
+    fits = fits && met != nullptr;
+    if (fits &&
+        std::none_of(pairs_.begin(), pairs_.end(), [&](const Pair& p) { return p.to == to; }))
+      pairs_.push_back({met->from, to});
+  });
+  if (!fits) pairs_.resize(n_pairs);
+  return fits;
 }
 
 void WedgeTable::apply(const CollapseTrace& trace) {

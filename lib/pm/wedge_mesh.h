@@ -20,11 +20,14 @@ struct WedgeMesh {
   std::vector<std::uint32_t> wedge_vertex;   ///< wedge -> vertex
   std::vector<std::uint32_t> wedge_source;   ///< wedge -> vertex of the file, for its attributes
   std::vector<glm::vec2> texcoords;          ///< of wedges; empty without
-  std::vector<Triangle> faces;               ///< three wedges each
-  std::vector<std::uint32_t> face_source;    ///< face -> triangle of the file
-  std::vector<std::uint32_t> face_place;     ///< face -> its place among those that are here
-  std::size_t n_welded = 0;                  ///< vertices of the file that are not a vertex here
-  std::size_t n_dropped = 0;                 ///< triangles with two corners at one position
+  /// Wedge -> its texture vertex: wedges of a vertex with equal texture coordinates, which may
+  /// differ in normals and colours, share one, the lowest of them. Empty without.
+  std::vector<std::uint32_t> texture_vertex;
+  std::vector<Triangle> faces;             ///< three wedges each
+  std::vector<std::uint32_t> face_source;  ///< face -> triangle of the file
+  std::vector<std::uint32_t> face_place;   ///< face -> its place among those that are here
+  std::size_t n_welded = 0;                ///< vertices of the file that are not a vertex here
+  std::size_t n_dropped = 0;               ///< triangles with two corners at one position
 
   std::size_t n_wedges() const { return wedge_vertex.size(); }
   std::vector<Triangle> vertex_triangles() const;
@@ -32,6 +35,9 @@ struct WedgeMesh {
 
 /// along_curve: false keeps the order of the file.
 WedgeMesh make_wedges(const TriMesh& mesh, bool along_curve = false);
+
+/// Sets texture_vertex.
+void find_texture_vertices(WedgeMesh& mesh);
 
 /// The texture chart of every face: charts are what corners of equal vertex and texture coordinates
 /// connect. Numbers in the order of their first faces. mesh must have texture coordinates.
@@ -47,23 +53,31 @@ class WedgeTable {
   explicit WedgeTable(const WedgeMesh& mesh);
   std::uint32_t at(std::uint32_t corner) const { return corners_[corner]; }
 
+  /// Of a wedge: see WedgeMesh. 0 without texture coordinates.
+  std::uint32_t texture_vertex(std::uint32_t wedge) const {
+    return texture_vertex_.empty() ? 0 : texture_vertex_[wedge];
+  }
+
   /// For the collapse u -> v, which wedge of v takes over from each wedge of u: the pairs at the
-  /// triangles that would die. False when some wedge of u has none, or two: u would leave the
-  /// boundary of its texture chart. Without texture coordinates there are no charts, and the first
-  /// pair serves all.
+  /// triangles that would die, and for further wedges those of their texture vertex. False when
+  /// some texture vertex of u meets none of v's, or two: u would leave the boundary of its texture
+  /// chart. Without texture coordinates there are no charts, and the first pair serves all.
   bool match(const CollapseMesh& mesh, std::uint32_t u, std::uint32_t v);
   const std::vector<Pair>& pairs() const { return pairs_; }
-  /// After match(): whether v may move as well, for each of its wedges is met by just one of u.
-  bool can_move(const CollapseMesh& mesh, std::uint32_t v) const;
+  /// The first pair of each texture vertex of u.
+  const std::vector<Pair>& texture_pairs() const { return texture_pairs_; }
+  /// After match(): whether v may move as well, for each of its texture vertices is met by just one
+  /// of u. Then pairs() has every wedge of v.
+  bool match_both(const CollapseMesh& mesh, std::uint32_t v);
   /// Gives the moved corners the wedges of the last match, which must have been this collapse.
   void apply(const CollapseTrace& trace);
 
  private:
   bool add_pair(const Pair& pair);
-  void pair_rest(const CollapseMesh& mesh, std::uint32_t u);
-  bool has_charts_;
+  bool pair_rest(const CollapseMesh& mesh, std::uint32_t u);
+  std::vector<std::uint32_t> texture_vertex_;
   LargeVector<std::uint32_t> corners_;
-  std::vector<Pair> pairs_;
+  std::vector<Pair> pairs_, texture_pairs_;
 };
 
 }  // namespace viewcell

@@ -232,8 +232,8 @@ TEST(TextureQemFull, BorderPlacesAreTheLeastOfTheEdge) {
   int n_inside = 0, n_borders = 0;
   for (const Triangle& t : wedges.vertex_triangles()) {
     const auto [u, v, w] = t;
-    if (!table.match(work, u, v) || !table.can_move(work, v) ||
-        table.pairs().size() != 2) continue;
+    if (!table.match(work, u, v) || !table.match_both(work, v) || table.pairs().size() != 2)
+      continue;
     ++n_borders;
     const std::vector<WedgeTable::Pair> pairs = table.pairs();
     const auto value_at = [&](double along) {

@@ -27,13 +27,13 @@ TEST(WedgeTable, TheEndOfASeamStays) {
   ASSERT_EQ(table.pairs().size(), 2u);
   EXPECT_NE(table.pairs()[0].from, table.pairs()[1].from);
   EXPECT_EQ(table.pairs()[0].to, table.pairs()[1].to);
-  EXPECT_FALSE(table.can_move(mesh, v));
+  EXPECT_FALSE(table.match_both(mesh, v));
   EXPECT_FALSE(table.match(mesh, v, u));
   EXPECT_TRUE(table.match(mesh, u, u - 1));  // along the seam
-  EXPECT_TRUE(table.can_move(mesh, u - 1));
+  EXPECT_TRUE(table.match_both(mesh, u - 1));
   EXPECT_FALSE(table.match(mesh, u, u + 5));  // away from it
   EXPECT_TRUE(table.match(mesh, u + 5, u));   // up to it
-  EXPECT_FALSE(table.can_move(mesh, u));
+  EXPECT_FALSE(table.match_both(mesh, u));
 }
 
 }  // namespace
