@@ -76,13 +76,11 @@ inline float before_last(int n) {
   return std::bit_cast<float>(std::bit_cast<std::uint32_t>(float(n - 1)) - 1);
 }
 
-inline Float4 clamp(Float4 v, Float4 lo, Float4 hi) {
-#ifdef __SSE__
-  return __builtin_ia32_minps(__builtin_ia32_maxps(v, lo), hi);
-#else
+// NaN becomes lo.
+template <typename Vector>
+Vector clamp(Vector v, Vector lo, Vector hi) {
   v = v > lo ? v : lo;
   return v < hi ? v : hi;
-#endif
 }
 
 // Pixels of an image, row by row.
@@ -106,43 +104,62 @@ Float4 sample(const View<Texel>& image, const glm::vec2& at) {
   return top + f.t * (bottom - top);
 }
 
-struct Line {  // in the source: of the texels of a span
-  glm::vec2 start, step;
+// The source places of texels, one after another.
+struct Places {
+  float *x, *y;
 };
 
-template <typename Texel>
-void sample_line(const View<Texel>& image, const Line& line, int n, Texel* out) {
-  for (int k = 0; k < n; ++k) store(sample(image, line.start + float(k) * line.step), out[k]);
+typedef float Float8 __attribute__((vector_size(32)));
+typedef std::int32_t Int8 __attribute__((vector_size(32)));
+
+// start + k * step for k in [0, n); up to seven more are written, too.
+[[gnu::always_inline]] inline void place_line(const glm::vec2& start, const glm::vec2& step, int n,
+                                              const Places& out) {
+  const Float8 count{0, 1, 2, 3, 4, 5, 6, 7};
+  int k = 0;
+  do {
+    const Float8 at = float(k) + count, x = start.x + at * step.x, y = start.y + at * step.y;
+    __builtin_memcpy(out.x + k, &x, sizeof x);
+    __builtin_memcpy(out.y + k, &y, sizeof y);
+    k += 8;
+  } while (k < n);
 }
 
-// The same for pairs of floats, four texels at once; up to three beyond n are written, too.
-[[gnu::always_inline]] inline void sample_line(const View<glm::vec2>& image, const Line& line,
-                                               int n, glm::vec2* out) {
+template <typename Texel>
+void sample_places(const View<Texel>& image, const Places& at, std::size_t n, Texel* out) {
+  for (std::size_t k = 0; k < n; ++k) store(sample(image, glm::vec2(at.x[k], at.y[k])), out[k]);
+}
+
+// The same for pairs of floats, eight texels at once; up to seven beyond n are written, too.
+inline void sample_places(const View<glm::vec2>& image, const Places& at, std::size_t n,
+                          glm::vec2* out) {
   if (image.width_px < 2 || image.height_px < 2) {
-    for (int k = 0; k < n; ++k) store(sample(image, line.start + float(k) * line.step), out[k]);
+    for (std::size_t k = 0; k < n; ++k) store(sample(image, glm::vec2(at.x[k], at.y[k])), out[k]);
     return;
   }
   // Up to the last texel but one, so that there is always a next.
-  const float right = before_last(image.width_px), bottom = before_last(image.height_px);
+  const Float8 zero{};
+  const Float8 right = zero + before_last(image.width_px),
+               bottom = zero + before_last(image.height_px);
   const auto* pixels = reinterpret_cast<const float*>(image.pixels);
   const std::size_t row = 2 * static_cast<std::size_t>(image.pitch_px);
-  const Float4 zero{}, count{0, 1, 2, 3};
-  for (int k = 0; k < n; k += 4) {
-    const Float4 at = float(k) + count;
-    const Float4 x = clamp(line.start.x + at * line.step.x, zero, zero + right);
-    const Float4 y = clamp(line.start.y + at * line.step.y, zero, zero + bottom);
-    const Int4 ix = __builtin_convertvector(x, Int4), iy = __builtin_convertvector(y, Int4);
-    const Float4 s = x - __builtin_convertvector(ix, Float4);
-    const Float4 t = y - __builtin_convertvector(iy, Float4);
-    const Int4 place = 2 * (iy * image.pitch_px + ix);
-    const auto mixed_rows = [&](int j) __attribute__((always_inline)) {
+  for (std::size_t k = 0; k < n; k += 8) {
+    Float8 x, y;
+    __builtin_memcpy(&x, at.x + k, sizeof x);
+    __builtin_memcpy(&y, at.y + k, sizeof y);
+    x = clamp(x, zero, right), y = clamp(y, zero, bottom);
+    const Int8 ix = __builtin_convertvector(x, Int8), iy = __builtin_convertvector(y, Int8);
+    const Float8 s = x - __builtin_convertvector(ix, Float8);
+    const Float8 t = y - __builtin_convertvector(iy, Float8);
+    const Int8 place = 2 * (iy * image.pitch_px + ix);
+    const auto mixed_rows = [&](std::size_t j) __attribute__((always_inline)) {
       const float* texel = pixels + static_cast<std::uint32_t>(place[j]);
       Float4 a, b;
       __builtin_memcpy(&a, texel, sizeof a);
       __builtin_memcpy(&b, texel + row, sizeof b);
       return a + t[j] * (b - a);
     };
-    for (int j = 0; j < 4 && k + j < n; j += 2) {
+    for (std::size_t j = 0; j < 8; j += 2) {
       const Float4 a = mixed_rows(j), b = mixed_rows(j + 1);
       const Float4 left = __builtin_shufflevector(a, b, 0, 1, 4, 5);
       const Float4 next = __builtin_shufflevector(a, b, 2, 3, 6, 7);

@@ -75,24 +75,39 @@ class TextureAdapter<Texel>::Engine {
     std::uint32_t offset;
     std::uint16_t n, owner;  // as it will be
   };
+  struct Run {
+    std::size_t first, last;
+  };
   // Memory of one thread, for one adaptation at a time.
   struct Scratch {
     std::vector<glm::vec2> from, to;
     std::vector<Span> spans;  // these sizes are room
     std::vector<Texel> values;
+    std::vector<float> x, y;                // where the values are sampled
+    std::vector<Run> runs;                  // of values to be sampled
     std::size_t n_spans = 0, n_values = 0;  // in use
     std::size_t n_texels = 0, n_conflicts = 0;
 
     void add_span(const Span& span) { spans[n_spans++] = span; }
-    // For all texels of a triangle and what sample_line() may write beyond; returns the first's.
+    // For all texels of a triangle and what is written beyond; returns the first's.
     Texel* make_room(const TexelTriangle& p) {
       const auto [x0, x1] = std::minmax({p[0].x, p[1].x, p[2].x});
       const auto [y0, y1] = std::minmax({p[0].y, p[1].y, p[2].y});
       const auto n_rows = static_cast<std::size_t>(y1 - y0) + 2;
-      const auto n = n_rows * (static_cast<std::size_t>(x1 - x0) + 2) + 4;
+      const auto n = n_rows * (static_cast<std::size_t>(x1 - x0) + 2) + 8;
       if (spans.size() < n_spans + n_rows) spans.resize(2 * (n_spans + n_rows));
-      if (values.size() < n_values + n) values.resize(2 * (n_values + n));
+      if (values.size() < n_values + n) {
+        values.resize(2 * (n_values + n));
+        x.resize(values.size()), y.resize(values.size());
+      }
       return values.data() + n_values;
+    }
+    Places places(std::size_t first) { return {x.data() + first, y.data() + first}; }
+    void add_run(std::size_t first, std::size_t last) {
+      if (!runs.empty() && runs.back().last == first)
+        runs.back().last = last;
+      else
+        runs.push_back({first, last});
     }
   };
   struct Cell {  // and how to read it
@@ -120,6 +135,8 @@ class TextureAdapter<Texel>::Engine {
   bool meets_others(const Adaptation& adaptation, const Scratch& scratch) const;
   void adapt(std::size_t step, bool is_collapse, Scratch& scratch);
   void gather_cell(const Cell& cell, Scratch& scratch) const;
+  void place_cell(const Cell& cell, Scratch& scratch) const;
+  void sample_runs(Scratch& scratch) const;
   void gather_gutter(const Cell& cell, std::size_t k, Scratch& scratch) const;
   void release(const Adaptation& adaptation, const Scratch& scratch);
   void mark_tiles(const Adaptation& adaptation, const Scratch& scratch);
@@ -181,7 +198,8 @@ bool TextureAdapter<Texel>::Engine::meets_others(const Adaptation& adaptation,
 template <typename Texel>
 void TextureAdapter<Texel>::Engine::adapt(std::size_t step, bool is_collapse, Scratch& scratch) {
   const Adaptation adaptation = log_.of(step);
-  scratch.from.clear(), scratch.to.clear(), scratch.n_spans = scratch.n_values = 0;
+  scratch.from.clear(), scratch.to.clear(), scratch.runs.clear();
+  scratch.n_spans = scratch.n_values = 0;
   for (const AdaptationPoint& point : adaptation.points) {
     const glm::vec2 before = place_of(point.before);
     const glm::vec2 after = place_of(point.after);
@@ -201,9 +219,10 @@ void TextureAdapter<Texel>::Engine::adapt(std::size_t step, bool is_collapse, Sc
     }
   };
   visit_cells([&](const AdaptationTriangle& t) {
-    gather_cell(cell, scratch);
+    cell.is_original || cell.is_guarded ? gather_cell(cell, scratch) : place_cell(cell, scratch);
     has_border = has_border || t.has_border();
   });
+  sample_runs(scratch);
   if (!has_border) return write_inside(scratch);
   visit_cells([&](const AdaptationTriangle& t) {
     for (std::size_t k = 0; k < 3; ++k)
@@ -212,6 +231,43 @@ void TextureAdapter<Texel>::Engine::adapt(std::size_t step, bool is_collapse, Sc
   release(adaptation, scratch);
   write_border(scratch);
   mark_tiles(adaptation, scratch);
+}
+
+// Where the texels of a cell come from. All cells of a star are sampled together: rows are short,
+// and their ends cost more than what is between.
+template <typename Texel>
+void TextureAdapter<Texel>::Engine::place_cell(const Cell& cell, Scratch& scratch) const {
+  const TexelTriangle to = cell.to();
+  const TexelAffine source = make_affine(to, cell.from());
+  scratch.make_room(to);
+  std::size_t at = scratch.n_values;
+  Span* span = scratch.spans.data() + scratch.n_spans;
+  const Places places = scratch.places(0);
+  const auto owner = static_cast<std::uint16_t>(kInsideChart | cell.name);
+  for_each_row(
+      to, width_px_, height_px_, [&](int x0, int x1, int y) __attribute__((always_inline)) {
+        const int n = std::max(x1 - x0, 0);
+        *span = {static_cast<std::uint32_t>(offset(x0, y)), static_cast<std::uint16_t>(n), owner};
+        span += n > 0;
+        place_line(source(glm::vec2(x0, y)), source.x, n, {places.x + at, places.y + at});
+        at += static_cast<std::size_t>(n);
+      });
+  scratch.add_run(scratch.n_values, at);
+  scratch.n_values = at;
+  scratch.n_spans = static_cast<std::size_t>(span - scratch.spans.data());
+}
+
+template <typename Texel>
+void TextureAdapter<Texel>::Engine::sample_runs(Scratch& scratch) const {
+  for (const Run& run : scratch.runs) {
+    // What is written beyond may be somebody's.
+    std::array<Texel, 7> beyond;
+    Texel* end = scratch.values.data() + run.last;
+    std::copy_n(end, beyond.size(), beyond.data());
+    sample_places(view(), scratch.places(run.first), run.last - run.first,
+                  scratch.values.data() + run.first);
+    std::copy_n(beyond.data(), beyond.size(), end);
+  }
 }
 
 template <typename Texel>
@@ -226,14 +282,12 @@ void TextureAdapter<Texel>::Engine::gather_cell(const Cell& cell, Scratch& scrat
       to, w, h, [&](int x0, int x1, int y) __attribute__((always_inline)) {
         const int n = x1 - x0;
         *span++ = {static_cast<std::uint32_t>(offset(x0, y)), static_cast<std::uint16_t>(n), owner};
-        const Line line{source(glm::vec2(x0, y)), source.x};
+        const glm::vec2 start = source(glm::vec2(x0, y));
         if (cell.is_original)
           fill_own(x0, y, n, values);
-        else if (!cell.is_guarded)
-          sample_line(view(), line, n, values);
         else
           for (int k = 0; k < n; ++k)
-            store(sample_own(view(), owners_.data(), cell.name, line.start + float(k) * line.step),
+            store(sample_own(view(), owners_.data(), cell.name, start + float(k) * source.x),
                   values[k]);
         values += n;
       });

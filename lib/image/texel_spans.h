@@ -21,10 +21,11 @@ using TexelTriangleOf = std::array<glm::vec<2, Real>, 3>;
 using TexelTriangle = TexelTriangleOf<float>;
 
 /// Calls visit(x0, x1, y) for the texels [x0, x1) of each row whose centres lie in the triangle,
-/// whichever way it turns. Triangles that share an edge, to the bit, share no texel and leave none
-/// out. What lies outside the image is left out; so is a triangle that is not finite.
+/// whichever way it turns; of some rows that is none, x1 <= x0. Triangles that share an edge, to
+/// the bit, share no texel and leave none out. What lies outside the image is left out; so is a
+/// triangle that is not finite.
 template <typename Real, typename Visit>
-void for_each_span(const TexelTriangleOf<Real>& triangle, int width_px, int height_px,
+void for_each_row(const TexelTriangleOf<Real>& triangle, int width_px, int height_px,
                    Visit&& visit) {
   using Vec2 = glm::vec<2, Real>;
   Vec2 a = triangle[0], b = triangle[1], c = triangle[2];
@@ -63,9 +64,17 @@ void for_each_span(const TexelTriangleOf<Real>& triangle, int width_px, int heig
     const Real4 along = is_upper ? zero + along_ab : zero + along_bc;
     const Real4 p = a.x + (y - a.y) * along_ac, q = from_x + (y - from_y) * along;
     const Int4 left = whole4(p < q ? p : q), right = whole4(p < q ? q : p);
-    for (int k = 0; k < 4 && first + k < bottom; ++k)
-      if (left[k] < right[k]) visit(left[k], right[k], first + k);
+    for (int k = 0; k < 4 && first + k < bottom; ++k) visit(left[k], right[k], first + k);
   }
+}
+
+/// The same, but for rows of none.
+template <typename Real, typename Visit>
+void for_each_span(const TexelTriangleOf<Real>& triangle, int width_px, int height_px,
+                   Visit&& visit) {
+  for_each_row(triangle, width_px, height_px, [&](int x0, int x1, int y) {
+    if (x0 < x1) visit(x0, x1, y);
+  });
 }
 
 /// The four texels around a place, in the order (x0, y0), (x1, y0), (x0, y1), (x1, y1), and their
