@@ -18,11 +18,13 @@ struct Region {
 
 Region region_of(const Adaptation& adaptation, int width_px, int height_px) {
   Region region;
+  glm::vec2 lo(1e30f), hi(-1e30f);
   for (const AdaptationPoint& point : adaptation.points)
-    for (const glm::vec2& uv : {point.before, point.after}) {
-      const glm::vec2 p = to_texels(uv, width_px, height_px);
-      region.lo = glm::min(region.lo, p), region.hi = glm::max(region.hi, p);
-    }
+    for (const glm::vec2& uv : {point.before, point.after})
+      lo = glm::min(lo, uv), hi = glm::max(hi, uv);
+  // Rows run down.
+  region.lo = to_texels(glm::vec2(lo.x, hi.y), width_px, height_px);
+  region.hi = to_texels(glm::vec2(hi.x, lo.y), width_px, height_px);
   for (const AdaptationTriangle& t : adaptation.triangles)
     region.has_border = region.has_border || t.has_border();
   return region;

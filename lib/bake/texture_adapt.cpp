@@ -200,12 +200,11 @@ void TextureAdapter<Texel>::Engine::adapt(std::size_t step, bool is_collapse, Sc
   const Adaptation adaptation = log_.of(step);
   scratch.from.clear(), scratch.to.clear(), scratch.runs.clear();
   scratch.n_spans = scratch.n_values = 0;
-  for (const AdaptationPoint& point : adaptation.points) {
-    const glm::vec2 before = place_of(point.before);
-    const glm::vec2 after = place_of(point.after);
-    scratch.from.push_back(is_collapse ? before : after);
-    scratch.to.push_back(is_collapse ? after : before);
-  }
+  scratch.from.resize(adaptation.points.size()), scratch.to.resize(adaptation.points.size());
+  glm::vec2* before = is_collapse ? scratch.from.data() : scratch.to.data();
+  glm::vec2* after = is_collapse ? scratch.to.data() : scratch.from.data();
+  for (const AdaptationPoint& point : adaptation.points)
+    *before++ = place_of(point.before), *after++ = place_of(point.after);
   bool has_border = false;
   Cell cell;
   cell.from_points = scratch.from.data(), cell.to_points = scratch.to.data();

@@ -26,7 +26,7 @@ using TexelTriangle = TexelTriangleOf<float>;
 /// triangle that is not finite.
 template <typename Real, typename Visit>
 void for_each_row(const TexelTriangleOf<Real>& triangle, int width_px, int height_px,
-                   Visit&& visit) {
+                  Visit&& visit) {
   using Vec2 = glm::vec<2, Real>;
   Vec2 a = triangle[0], b = triangle[1], c = triangle[2];
   if (!std::isfinite(a.x + a.y + b.x + b.y + c.x + c.y)) return;
