@@ -12,6 +12,9 @@
 
 namespace viewcell {
 
+/// The exit code of "compared, and over the threshold asked for".
+inline constexpr int kOverThreshold = 5;
+
 /// For options: a number within [lo, hi]. CLI::Range lets NaN through.
 CLI::Validator within(double lo, double hi);
 

@@ -16,8 +16,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kOverThreshold = 5;
-
 struct Arguments {
   std::string reference, tested, inside;
   bool index_maps = false;

@@ -1,4 +1,4 @@
-#include "arguments.h"
+#include "texadapt/arguments.h"
 
 #include <algorithm>
 #include <filesystem>

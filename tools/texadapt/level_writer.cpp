@@ -1,0 +1,49 @@
+#include "texadapt/level_writer.h"
+
+#include "base/version.h"
+#include "image/io.h"
+#include "mesh/io.h"
+#include "mesh/write_glb.h"
+
+namespace viewcell {
+namespace {
+
+std::string format_comment() {
+  return std::string("made by texadapt ") + version();
+}
+
+}  // namespace
+
+void LevelWriter::write_output(std::size_t level, const TriMesh& mesh, const IndexMap* map,
+                               const ImageRgba8* normal_map, const Bake& bake) const {
+  const std::string output = a_.name_at(tool_.common().output, level);
+  if (a_.format == TextureFormat::map)
+    write_index_map(output, *map);
+  else if (a_.format == TextureFormat::png)
+    write_png(output, bake(in_.texture));
+  else
+    write_glb(output, mesh,
+              {encode_png(bake(in_.texture)), normal_map ? encode_png(*normal_map) : "",
+               format_comment()});
+}
+
+void LevelWriter::write_mesh(std::size_t level, const TriMesh& mesh) const {
+  const std::string file = a_.name_at(a_.mesh, level);
+  if (file.ends_with(".obj"))
+    write_obj(file, mesh, {{format_comment()}, "", ""});
+  else if (!file.empty())
+    write_ply(file, mesh, {format_comment()});
+}
+
+void LevelWriter::write(std::size_t level, const TriMesh& mesh, const IndexMap* map,
+                        const ImageRgba8* normal_map, const Bake& bake) const {
+  write_output(level, mesh, map, normal_map, bake);
+  write_mesh(level, mesh);
+  if (!a_.index_map.empty()) write_index_map(a_.name_at(a_.index_map, level), *map);
+  if (const std::string file = a_.name_at(a_.normal_map.to, level); !file.empty())
+    write_png(file, *normal_map);
+  for (std::size_t i = 0; i < in_.further.size(); ++i)
+    write_png(a_.name_at(a_.further[i].to, level), bake(in_.further[i]));
+}
+
+}  // namespace viewcell

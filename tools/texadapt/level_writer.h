@@ -1,0 +1,35 @@
+// The files of a level.
+#pragma once
+
+#include <functional>
+
+#include "image/index_map.h"
+#include "texadapt/inputs.h"
+
+namespace viewcell {
+
+/// Keeps what it is made of by reference.
+class LevelWriter {
+ public:
+  /// What a level shows of a texture.
+  using Bake = std::function<ImageRgba8(const ImageRgba8& texture)>;
+
+  LevelWriter(const Tool& tool, const TexadaptArguments& arguments, const TexadaptInputs& inputs)
+      : tool_(tool), a_(arguments), in_(inputs) {}
+
+  /// The textures of the level of so many faces, its mesh and its maps, each where it is asked for.
+  /// map, normal_map: null where there is none.
+  void write(std::size_t level, const TriMesh& mesh, const IndexMap* map,
+             const ImageRgba8* normal_map, const Bake& bake) const;
+
+ private:
+  void write_output(std::size_t level, const TriMesh& mesh, const IndexMap* map,
+                    const ImageRgba8* normal_map, const Bake& bake) const;
+  void write_mesh(std::size_t level, const TriMesh& mesh) const;
+
+  const Tool& tool_;
+  const TexadaptArguments& a_;
+  const TexadaptInputs& in_;
+};
+
+}  // namespace viewcell
