@@ -1,0 +1,122 @@
+#include "meshshot/arguments.h"
+
+#include <filesystem>
+
+#include "base/error.h"
+#include "common/files.h"
+#include "gl/context.h"
+#include "mesh/texture_file.h"
+
+namespace viewcell {
+namespace {
+
+namespace fs = std::filesystem;
+
+void declare_surface(CLI::App& app, MeshshotArguments& o) {
+  app.add_option("MESH", o.mesh_file, "OBJ, PLY (.gz), OFF, STL, GLB, glTF or 3DS")->required();
+  app.add_option(
+      "--texture", o.texture,
+      "picture for the mesh's texture coordinates, repeated, filtered with mipmaps: a file, a "
+      "GLB's "
+      "base colour, or model.glb#normal (also #emissive, #occlusion, #metallicRoughness); textures "
+      "that MESH names or holds are not read unless they are given here");
+  app.add_option(
+      "--normal-map", o.normal_map,
+      "tangent-space normal map for the same coordinates, named as a texture is: lights relief");
+  app.add_option("--normal-map-y", o.normal_map_y,
+                 "where its green points: up (OpenGL, glTF) | down (Direct3D)")
+      ->capture_default_str()
+      ->needs("--normal-map")
+      ->check(CLI::IsMember({"up", "down"}));
+  app.add_option(
+      "--index-map", o.map_file,
+      "indexing map (.exr, .tif) that the mesh's texture coordinates look up; what it holds looks "
+      "up --texture and --normal-map");
+  app.add_flag("--flip-v", o.style.flip_v,
+               "v = 0 is the texture's top row: for files whose coordinates run that way");
+}
+
+void declare_pictures(CLI::App& app, MeshshotArguments& o) {
+  app.add_option("--views", o.shots.n_views, "number of views, spread evenly over the sphere")
+      ->capture_default_str()
+      ->check(CLI::Range(std::size_t{1}, kMostViews));
+  app.add_option("--size", o.style.size_px, "side of a picture, px")
+      ->capture_default_str()
+      ->check(CLI::Range(16, kMostSamplesPerSide));
+  app.add_option("--samples", o.style.samples, "samples per pixel along each side")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 8));
+}
+
+void declare_frame(CLI::App& app, MeshshotArguments& o) {
+  app.add_option("--like", o.like_file,
+                 "take the frame (box and up axis) from this mesh: pictures of a simplified "
+                 "mesh, to be compared, want --like ORIGINAL");
+  app.add_option("--box", o.box, "x0,y0,z0:x1,y1,z1, the frame's box in the mesh's coordinates")
+      ->excludes("--like");
+  app.add_option("--up", o.up,
+                 "axis that points up: x | y | z | auto (y for OBJ, GLB and glTF, else z; with "
+                 "--like, by that file)")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"x", "y", "z", "auto"}));
+}
+
+void declare_look(CLI::App& app, MeshshotArguments& o) {
+  app.add_flag("--unlit", o.unlit, "the surface's colour as it is")->excludes("--normal-map");
+  app.add_flag("--fixed-light", o.fixed_light,
+               "the light stays with the mesh and does not turn with the view");
+  app.add_option(
+         "--normals", o.normals,
+         "mesh (computed where it has none) | computed (by angle; for both, where only one of two "
+         "meshes to compare has its own) | flat (of triangles)")
+      ->capture_default_str();
+  app.add_flag("--wireframe", o.style.wireframe, "draw edges over the surface");
+}
+
+void declare_outputs(Tool& tool, MeshshotArguments& o) {
+  CLI::App& app = tool.app();
+  app.add_option("--sheet", o.sheet,
+                 "the contact sheet's file (default: DIR.sheet.png, beside the folder)");
+  app.add_flag("--no-sheet", o.no_sheet, "write no contact sheet")->excludes("--sheet");
+  app.add_option("--gl", o.gl, "osmesa | egl")->capture_default_str();
+  tool.add_output("folder DIR of pictures to write, view-00.png and on");
+}
+
+}  // namespace
+
+void declare_arguments(Tool& tool, MeshshotArguments& o) {
+  declare_surface(tool.app(), o);
+  declare_pictures(tool.app(), o);
+  declare_frame(tool.app(), o);
+  declare_look(tool.app(), o);
+  declare_outputs(tool, o);
+}
+
+void finish_arguments(const Tool& tool, MeshshotArguments& o) {
+  if (o.style.size_px > kMostSamplesPerSide / o.style.samples)
+    throw UsageError("--size times --samples is above " + std::to_string(kMostSamplesPerSide));
+  if (tool.common().output == "-") throw UsageError("-o names a folder");
+  if (!o.map_file.empty() && o.texture.empty() && o.normal_map.empty())
+    throw UsageError("--index-map requires --texture or --normal-map");
+  if (!o.box.empty()) parse_box(o.box);
+  parse_gl_engine(o.gl);
+  o.style.lit = !o.unlit;
+  o.style.light_follows = !o.fixed_light;
+  o.style.normals = parse_normal_source(o.normals);
+  o.style.normal_map_y = o.normal_map_y == "up" ? NormalMapY::up : NormalMapY::down;
+  o.shots.folder = tool.common().output;
+  o.shots.n_threads = tool.common().n_threads;
+  if (!o.no_sheet)
+    o.shots.sheet = o.sheet.empty() ? sheet_beside(o.shots.folder) : fs::path(o.sheet);
+  const std::string sheet = o.shots.sheet.string();
+  check_ending({"--sheet", sheet}, {".png"}, "a PNG");
+  check_files({{"the mesh that is read", o.mesh_file},
+               {"the texture that is read", texture_file(o.texture).string()},
+               {"the normal map that is read", texture_file(o.normal_map).string()},
+               {"the indexing map that is read", o.map_file},
+               {"the mesh of --like", o.like_file}},
+              {{"--sheet", sheet}, {"--json", tool.common().json_file}});
+  check_shot_folder(o.shots.folder, o.shots.n_views);
+}
+
+}  // namespace viewcell

@@ -1,0 +1,98 @@
+#include "play/arguments.h"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "base/error.h"
+
+namespace viewcell {
+namespace {
+
+std::vector<Mode> parse_modes(const std::string& list) {
+  std::vector<Mode> modes;
+  std::string item;
+  for (const char c : list + ",") {
+    if (c != ',') {
+      item += c;
+      continue;
+    }
+    const Mode mode = parse_mode(item);
+    if (std::find(modes.begin(), modes.end(), mode) != modes.end())
+      throw UsageError("--modes: '" + item + "' is named twice");
+    modes.push_back(mode);
+    item.clear();
+  }
+  return modes;
+}
+
+PlayerOptions make_player_options(const Tool& tool, const PlayArguments& o) {
+  PlayerOptions player;
+  char rest = 0;
+  if (std::sscanf(o.size.c_str(), "%dx%d%c", &player.width_px, &player.height_px, &rest) != 2 ||
+      std::min(player.width_px, player.height_px) < 16 ||
+      std::max(player.width_px, player.height_px) > 8192)
+    throw UsageError("--size: '" + o.size + "' is not WIDTHxHEIGHT within 16 to 8192");
+  if (player.width_px != player.height_px)
+    throw UsageError("--size: frames are square (" + o.size + ")");
+  player.engine = parse_gl_engine(o.gl);
+  player.n_threads = tool.common().n_threads;
+  player.residency.pool_texels = static_cast<std::uint32_t>(o.texture_mb) << 18;
+  player.residency.prefetch = !o.no_prefetch;
+  const auto plays = [&](Mode mode) {
+    return std::find(o.session.modes.begin(), o.session.modes.end(), mode) != o.session.modes.end();
+  };
+  player.with_lod = plays(Mode::lod) || plays(Mode::lod_equal);
+  player.with_raycast = plays(Mode::raycast);
+  return player;
+}
+
+}  // namespace
+
+void declare_arguments(Tool& tool, PlayArguments& o) {
+  CLI::App& app = tool.app();
+  app.add_option("bundle", o.bundle, "folder of the bundle")->required();
+  app.add_option("--path", o.path_file, "path.json")->required();
+  app.add_option("--modes", o.modes,
+                 "of geometry,frustum,lod,hybrid,raycast, "
+                 "lod-equal,geometry-two-sided,frustum-two-sided")
+      ->capture_default_str();
+  app.add_option("--reference", o.reference, "mode that pictures are compared with")
+      ->capture_default_str();
+  app.add_option("--frames", o.session.n_frames, "frames over the whole path")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 100000));
+  app.add_option("--turn", o.session.turn_frames, "frames of one mode before the next has its turn")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 100000));
+  app.add_option("--size", o.size, "WIDTHxHEIGHT in px")->capture_default_str();
+  app.add_option("--save", o.session.save, "folder to write frames to, as PNG");
+  app.add_option("--every", o.session.save_every, "save every K-th frame")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 100000));
+  app.add_option("--quality-every", o.session.quality_every, "compare every K-th frame")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 100000));
+  app.add_option("--stats", o.stats_file, "write statistics as JSON (-: stdout)");
+  app.add_option("--table", o.table_file, "write the table of modes as Markdown (-: stdout)");
+  app.add_option("--plots", o.plots_folder, "folder to write plots to, as SVG");
+  app.add_option("--sheet", o.sheet_file, "write a contact sheet of chosen frames, as PNG");
+  app.add_option("--sheet-rows", o.session.n_sheet_rows, "frames on it")->capture_default_str();
+  app.add_option("--gl", o.gl, "osmesa | egl")->capture_default_str();
+  app.add_option("--texture-memory", o.texture_mb, "MB of GL memory for textures")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 512));
+  app.add_flag("--no-prefetch", o.no_prefetch, "load cells only when they are entered");
+  app.add_flag("--no-quality", o.no_quality, "only measure times");
+}
+
+PlayerOptions finish_arguments(const Tool& tool, PlayArguments& o) {
+  o.session.modes = parse_modes(o.modes);
+  o.session.reference = parse_mode(o.reference);
+  o.session.with_quality = !o.no_quality;
+  const PlayerOptions player = make_player_options(tool, o);
+  if (o.session.reference == Mode::raycast && !player.with_raycast)
+    throw UsageError("--reference: raycast must be among --modes");
+  return player;
+}
+
+}  // namespace viewcell
