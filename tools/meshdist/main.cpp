@@ -1,72 +1,16 @@
 // meshdist: how far two surfaces are from each other.
-#include <cmath>
 #include <cstdio>
-#include <limits>
-#include <optional>
-#include <string>
 
-#include "base/error.h"
 #include "base/file.h"
 #include "base/table.h"
-#include "common/files.h"
 #include "common/provenance.h"
 #include "common/stopwatch.h"
-#include "common/tool.h"
-#include "mesh/distance_report.h"
+#include "meshdist/arguments.h"
 
 namespace viewcell {
 namespace {
 
-constexpr int kOverThreshold = 5;
-
-struct Arguments {
-  std::string a, b, color;
-  std::optional<std::string> range;
-  double fail_above = std::numeric_limits<double>::infinity();
-  DistanceOptions options;
-};
-
-void declare(Tool& tool, Arguments& arguments) {
-  CLI::App& app = tool.app();
-  DistanceOptions& options = arguments.options;
-  app.add_option("A", arguments.a, "mesh: OBJ, PLY, PLY.GZ, OFF, STL, GLB, glTF or 3DS (-: stdin)")
-      ->required();
-  app.add_option("B", arguments.b, "the mesh to compare with it")->required();
-  app.add_option("--samples", options.n_samples, "samples on the faces of each mesh")
-      ->capture_default_str()
-      ->check(CLI::Range(1, 100'000'000));
-  app.add_option("--seed", options.seed, "shifts the samples on faces")
-      ->capture_default_str()
-      ->check(whole_within(0, std::numeric_limits<decltype(options.seed)>::max()));
-  app.add_flag("--unit-cube", options.unit_cube,
-               "results as if A were scaled into the unit cube, and B by the same factor");
-  app.add_option("--color", arguments.color,
-                 "write A as PLY with distances of vertices, as colours too: green near, blue far");
-  app.add_option("--range", arguments.range,
-                 "LO:HI, distances of green and blue (default: 0 to the 99th percentile)");
-  CLI::Option* histogram = app.add_option("--histogram", options.n_bins,
-                                          "count distances in this many equal parts of 0:max")
-                               ->check(CLI::Range(1, 100'000));
-  app.add_option("--histogram-to", options.histogram_most,
-                 "end its last part here, not at max: the same parts for several meshes")
-      ->check(within(1e-30, 1e30))
-      ->needs(histogram);
-  app.add_option("--fail-above", arguments.fail_above,
-                 "exit with 5 when the symmetric maximum is above this")
-      ->check(within(0, 1e300));
-  tool.add_output("write the table to this file (default -: standard output)", false);
-}
-
-std::array<double, 2> parse_range(const std::string& text) {
-  double lo = 0, hi = 0;
-  char rest = 0;
-  if (std::sscanf(text.c_str(), "%lf:%lf%c", &lo, &hi, &rest) != 2 || !(lo < hi) ||
-      !std::isfinite(lo) || !std::isfinite(hi))
-    throw UsageError("--range: '" + text + "' is not LO:HI with LO below HI");
-  return {lo, hi};
-}
-
-void write_color(const Tool& tool, const Arguments& arguments, const TriMesh& a,
+void write_color(const Tool& tool, const MeshdistArguments& arguments, const TriMesh& a,
                  const SurfaceDistance& distance, const std::array<double, 2>& range,
                  const std::array<std::string, 2>& hashes) {
   const DistanceOptions& options = arguments.options;
@@ -79,17 +23,8 @@ void write_color(const Tool& tool, const Arguments& arguments, const TriMesh& a,
       {"provenance " + make_provenance(tool, typed, {{"a", hashes[0]}, {"b", hashes[1]}}).dump()});
 }
 
-void check_paths(const Tool& tool, const Arguments& arguments) {
-  const CommonOptions& common = tool.common();
-  check_ending({"--color", arguments.color}, {".ply"}, "a PLY");
-  check_files({{"A", arguments.a}, {"B", arguments.b}},
-              {{"-o", common.output}, {"--json", common.json_file}, {"--color", arguments.color}});
-}
-
-int run(const Tool& tool, const Arguments& arguments) {
-  check_paths(tool, arguments);
-  std::optional<std::array<double, 2>> range;
-  if (arguments.range) range = parse_range(*arguments.range);
+int run(const Tool& tool, MeshdistArguments& arguments) {
+  finish_arguments(tool, arguments);
   std::array<std::string, 2> hashes;
   const TriMesh a = read_surface(arguments.a, &hashes[0]);
   const TriMesh b = read_surface(arguments.b, &hashes[1]);
@@ -99,8 +34,8 @@ int run(const Tool& tool, const Arguments& arguments) {
   const SurfaceDistance distance = measure_surface_distance(a, b, options, tool.progress("block"));
   const double took_s = watch.lap_s();
   if (!arguments.color.empty())
-    write_color(tool, arguments, a, distance, range.value_or(default_color_range(distance)),
-                hashes);
+    write_color(tool, arguments, a, distance,
+                arguments.range.value_or(default_color_range(distance)), hashes);
 
   const std::string table_file = tool.common().output.empty() ? "-" : tool.common().output;
   if (!(tool.common().json_file == "-" && table_file == "-"))
@@ -127,7 +62,7 @@ int main(int argc, char** argv) {
       "larger.",
       "meshdist bunny.ply bunny-1000.ply --unit-cube --color error.ply --range 0:0.03\n"
       "  meshdist a.ply b.ply --fail-above 0.01 --json distance.json");
-  viewcell::Arguments arguments;
-  viewcell::declare(tool, arguments);
+  viewcell::MeshdistArguments arguments;
+  viewcell::declare_arguments(tool, arguments);
   return tool.main(argc, argv, [&] { return viewcell::run(tool, arguments); });
 }

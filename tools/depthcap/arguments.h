@@ -1,0 +1,20 @@
+// What is typed at depthcap.
+#pragma once
+
+#include <string>
+
+#include "capture/view.h"
+#include "common/tool.h"
+
+namespace viewcell {
+
+struct DepthcapArguments {
+  std::string scene_file, cells_file;
+  std::string cell_list = "all", slice;
+  CaptureDensity density;
+  std::string engine = "embree", gl = "osmesa";
+};
+
+void declare_arguments(Tool& tool, DepthcapArguments& arguments);
+
+}  // namespace viewcell

@@ -1,0 +1,103 @@
+#include "pm/build.h"
+
+#include <cmath>
+#include <cstdio>
+
+#include "common/provenance.h"
+#include "common/stopwatch.h"
+#include "mesh/io.h"
+#include "pm/pm_file.h"
+#include "pmesh/commands.h"
+
+namespace viewcell {
+namespace {
+
+Json format_options(const BuildOptions& b) {
+  Json out{{"metric", metric_name(b.metric)},
+           {"placement", placement_name(b.placement)},
+           {"lazy", b.lazy},
+           {"min_cosine", b.min_cosine}};
+  if (b.target_faces > 1) out["target_faces"] = b.target_faces;
+  if (std::isfinite(b.max_cost)) out["max_cost"] = b.max_cost;
+  if (b.metric == MetricKind::aps || b.metric == MetricKind::mapping)
+    out["error"] = b.total_error ? "total" : "incremental";
+  if (b.metric == MetricKind::mapping) out["measure"] = b.measure == Measure::mean ? "mean" : "max";
+  if (std::isfinite(b.error_bound)) out["error_bound"] = b.error_bound;
+  if (b.track_error) out["track_error"] = true;
+  if (b.refuse_folds) out["refuse_folds"] = true;
+  if (b.charts_apart_px > 0) out["charts_apart_px"] = b.charts_apart_px;
+  if (b.metric == MetricKind::qem5) out["texture_weight"] = b.texture_weight;
+  if (b.metric == MetricKind::qem3 || b.metric == MetricKind::qem5) {
+    out["area_weighted"] = b.qem.area_weighted;
+    out["mean"] = b.qem.mean;
+    out["boundary_weight"] = b.qem.boundary_weight;
+  }
+  return out;
+}
+
+std::string format_refusals(const CollapseCounts& counts) {
+  std::string out;
+  for (int k = 1; k < kRefusalKinds; ++k)
+    if (const std::size_t n = counts.n_refused[static_cast<std::size_t>(k)])
+      out += (out.empty() ? "" : ", ") + std::to_string(n) + " by " +
+             refusal_name(static_cast<Refusal>(k));
+  return out.empty() ? "none" : out;
+}
+
+Json format_refused(const CollapseCounts& counts) {
+  Json out = Json::object();
+  for (int k = 1; k < kRefusalKinds; ++k)
+    out[refusal_name(static_cast<Refusal>(k))] = counts.n_refused[static_cast<std::size_t>(k)];
+  return out;
+}
+
+// What helps where charts hold collapses back.
+const char* advise(const PmeshArguments& a, const CollapseCounts& counts) {
+  const bool can_leave_out =
+      !needs_texture(a.build.metric) ||
+      (a.build.metric == MetricKind::mapping && a.build.placement == Placement::full);
+  const bool by_chart = counts.n_refused[static_cast<std::size_t>(Refusal::chart)] > 0;
+  return by_chart && can_leave_out ? "; --no-texture leaves charts out" : "";
+}
+
+}  // namespace
+
+int build(Tool& tool, PmeshArguments& a) {
+  finish_build(tool, a);
+  const BuildOptions& options = a.build;
+  Stopwatch watch;
+  std::string hash;
+  TriMesh mesh = read_mesh(a.model, &hash);
+  if (a.no_texture) mesh.texcoords.clear();
+  const double read_s = watch.lap_s();
+  BuildResult result = build_progressive_mesh(mesh, options, tool.progress("percent"));
+  const double build_s = watch.lap_s();
+  const std::size_t n_faces = result.record.faces.size();
+  const std::size_t n_base = n_faces - result.record.born.size();
+  Json said = format_options(options);
+  if (a.no_texture) said["texture"] = false;
+  result.record.made_by = make_provenance(tool, said, {{"model", hash}}).dump();
+  write_pm(tool.common().output, result.record);
+  const CollapseCounts& counts = result.counts;
+  const bool is_short = a.stops_at_faces && n_base > options.target_faces;
+  if (!is_short)
+    tool.say(std::to_string(n_faces) + " -> " + std::to_string(n_base) + " faces, " +
+             std::to_string(counts.n_collapses) +
+             " collapses; refused: " + format_refusals(counts));
+  tool.report({{"faces_in", n_faces},
+               {"faces_base", n_base},
+               {"collapses", counts.n_collapses},
+               {"refused", format_refused(counts)},
+               {"cost_evaluations", counts.n_costs},
+               {"cost_max", counts.last_cost},
+               {"vertices_welded", result.n_welded},
+               {"faces_dropped", result.n_dropped},
+               {"timing", {{"read_s", read_s}, {"build_s", build_s}}}});
+  if (!is_short) return 0;
+  std::fprintf(stderr, "pmesh: %s: %zu faces were asked for, %zu remain; refused: %s%s\n",
+               a.model.c_str(), options.target_faces, n_base, format_refusals(counts).c_str(),
+               advise(a, counts));
+  return kOverThreshold;
+}
+
+}  // namespace viewcell

@@ -1,0 +1,53 @@
+#include <cstdio>
+#include <filesystem>
+
+#include "base/error.h"
+#include "base/version.h"
+#include "common/stopwatch.h"
+#include "mesh/io.h"
+#include "pm/pm_file.h"
+#include "pmesh/commands.h"
+
+namespace viewcell {
+namespace {
+
+void write_mesh(const std::string& file, const TriMesh& mesh) {
+  const std::vector<std::string> comments{std::string("made by pmesh ") + version()};
+  const std::string ending = std::filesystem::path(file).extension();
+  if (ending == ".obj" || ending == ".OBJ") return write_obj(file, mesh, {comments, "", ""});
+  write_ply(file, mesh, comments);
+}
+
+void choose_level(const PmeshArguments& a, ProgressiveMesh& mesh) {
+  if (!a.within)
+    mesh.set_faces(*a.n_faces);
+  else if (!mesh.set_error(*a.within))
+    throw InputError(a.pm, "", "has no error bounds; pmesh build --track-error keeps them");
+}
+
+}  // namespace
+
+int extract(const Tool& tool, const PmeshArguments& a) {
+  check_extract(tool, a);
+  ProgressiveMesh mesh(read_pm(a.pm));
+  // From the finest level on, as a program that draws goes.
+  mesh.set_level(mesh.n_splits());
+  Stopwatch watch;
+  choose_level(a, mesh);
+  const double level_s = watch.lap_s();
+  const TriMesh out = mesh.extract();
+  write_mesh(tool.common().output, out);
+  const bool is_short = a.n_faces && out.triangles.size() > *a.n_faces;
+  if (!is_short) tool.say(std::to_string(out.triangles.size()) + " faces");
+  tool.report({{"faces", out.triangles.size()},
+               {"vertices", out.positions.size()},
+               {"cost", mesh.cost()},
+               {"error_bound", mesh.error() < 0 ? Json() : Json(mesh.error())},
+               {"timing", {{"level_s", level_s}}}});
+  if (!is_short) return 0;
+  std::fprintf(stderr, "pmesh: %s: %zu faces were asked for, its base has %zu\n", a.pm.c_str(),
+               *a.n_faces, mesh.n_base_faces());
+  return kOverThreshold;
+}
+
+}  // namespace viewcell
