@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/json.h"
 
 namespace viewcell {
 
@@ -69,6 +70,9 @@ class SectionReader {
     values.resize(section.n_bytes / sizeof(T));
     read_bytes(section, reinterpret_cast<char*>(values.data()));
   }
+  /// The JSON object in section INFO, whose "format" and "version" must be the ones given. Throws
+  /// InputError.
+  Json read_info(const std::string& format, int version) const;
   std::uint64_t n_bytes(const std::string& tag) const { return find(tag).n_bytes; }
   [[noreturn]] void fail(const std::string& tag, const std::string& what) const;
 

@@ -11,6 +11,8 @@ namespace viewcell {
 namespace {
 
 constexpr std::uint32_t kKind = 5;
+constexpr const char* kFormat = "viewcell-adapt";
+constexpr int kVersion = 1;
 
 // Of all that the cells depend on.
 std::string hash_of(const ProgressiveRecord& record) {
@@ -63,10 +65,14 @@ std::string find_fault(const AdaptationLog& log, const ProgressiveRecord& record
 void write_adapt(const std::filesystem::path& file, const AdaptationLog& log,
                  const ProgressiveRecord& record) {
   SectionWriter writer(kKind);
-  const Json info{{"format", "viewcell-adapt"},   {"version", 1},
-                  {"mesh_hash", hash_of(record)}, {"steps_per_collapse", log.steps_per_collapse},
-                  {"charts", log.n_charts},       {"folded", log.n_folded},
-                  {"unmapped", log.n_unmapped},   {"moved", log.n_moved}};
+  const Json info{{"format", kFormat},
+                  {"version", kVersion},
+                  {"mesh_hash", hash_of(record)},
+                  {"steps_per_collapse", log.steps_per_collapse},
+                  {"charts", log.n_charts},
+                  {"folded", log.n_folded},
+                  {"unmapped", log.n_unmapped},
+                  {"moved", log.n_moved}};
   writer.add_bytes("INFO", info.dump());
   writer.add("POINTS", log.points);
   writer.add("TRIANGLE", log.triangles);
@@ -78,12 +84,8 @@ void write_adapt(const std::filesystem::path& file, const AdaptationLog& log,
 
 AdaptationLog read_adapt(const std::filesystem::path& file, const ProgressiveRecord& record) {
   const SectionReader reader(file, kKind, "a log of adaptations (.adapt)");
-  const auto bytes = reader.read<char>("INFO");
-  const Json json = parse_json(std::string(bytes.begin(), bytes.end()), file);
+  const Json json = reader.read_info(kFormat, kVersion);
   const JsonCursor info(json, file);
-  if (info.at("format").string() != "viewcell-adapt")
-    info.at("format").fail("is not viewcell-adapt");
-  if (info.at("version").integer(0, 1 << 30) != 1) info.at("version").fail("is not 1");
   if (info.at("mesh_hash").string() != hash_of(record))
     throw InputError(file, "", "is the log of another progressive mesh");
   AdaptationLog log;

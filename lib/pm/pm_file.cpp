@@ -9,11 +9,8 @@ namespace viewcell {
 namespace {
 
 constexpr std::uint32_t kKind = 4;
-
-Json read_info(const SectionReader& reader, const std::filesystem::path& file) {
-  const auto bytes = reader.read<char>("INFO");
-  return parse_json(std::string(bytes.begin(), bytes.end()), file);
-}
+constexpr const char* kFormat = "viewcell-pm";
+constexpr int kVersion = 1;
 
 void check_finite(const SectionReader& reader, const char* tag, const std::vector<glm::vec3>& v) {
   for (const glm::vec3& p : v)
@@ -25,8 +22,8 @@ void check_finite(const SectionReader& reader, const char* tag, const std::vecto
 void write_pm(const std::filesystem::path& file, const ProgressiveRecord& r) {
   SectionWriter writer(kKind);
   const TriMesh& a = r.attributes;
-  const Json info{{"format", "viewcell-pm"},
-                  {"version", 1},
+  const Json info{{"format", kFormat},
+                  {"version", kVersion},
                   {"material_names", a.material_names},
                   {"full_edge", r.is_full_edge()},
                   {"made_by", r.made_by.empty() ? Json() : Json::parse(r.made_by)}};
@@ -51,10 +48,8 @@ void write_pm(const std::filesystem::path& file, const ProgressiveRecord& r) {
 
 ProgressiveRecord read_pm(const std::filesystem::path& file) {
   const SectionReader reader(file, kKind, "a progressive mesh (.pm)");
-  const Json json = read_info(reader, file);
+  const Json json = reader.read_info(kFormat, kVersion);
   const JsonCursor info(json, file);
-  if (info.at("format").string() != "viewcell-pm") info.at("format").fail("is not viewcell-pm");
-  if (info.at("version").integer(0, 1 << 30) != 1) info.at("version").fail("is not 1");
   ProgressiveRecord r;
   TriMesh& a = r.attributes;
   const JsonCursor names = info.at("material_names");

@@ -89,6 +89,26 @@ TEST(SectionFile, RefusesAnotherKindAndMissingSections) {
   EXPECT_INPUT_ERROR(SectionReader(folder.path() / "whole", kKind + 1, "a loaf"), "is not a loaf");
 }
 
+TEST(SectionFile, InfoSaysFormatAndVersion) {
+  const TemporaryFolder folder;
+  const auto read = [&](const char* info) {
+    SectionWriter writer(kKind);
+    if (info) writer.add_bytes("INFO", info);
+    writer.write(folder / "f");
+    return SectionReader(folder / "f", kKind).read_info("viewcell-loaf", 2);
+  };
+  const Json info = read(R"({"format": "viewcell-loaf", "version": 2, "slices": 7})");
+  EXPECT_EQ(info["slices"], 7);
+  EXPECT_INPUT_ERROR(read(R"({"format": "viewcell-bun", "version": 2})"),
+                     "format: is not viewcell-loaf");
+  EXPECT_INPUT_ERROR(read(R"({"format": "viewcell-loaf", "version": 1})"), "version: is not 2");
+  EXPECT_INPUT_ERROR(read(R"({"format": "viewcell-loaf", "version": "2"})"), "is not a number");
+  EXPECT_INPUT_ERROR(read(R"({"version": 2})"), "has no \"format\"");
+  EXPECT_INPUT_ERROR(read("[]"), "is not an object");
+  EXPECT_INPUT_ERROR(read("{"), "not valid JSON");
+  EXPECT_INPUT_ERROR(read(nullptr), "section INFO: is missing");
+}
+
 // Padding between sections carries nothing, so a change there reads the same; all else is refused.
 TEST(SectionFile, EveryChangedByteIsRefusedOrChangesNothing) {
   const TemporaryFolder folder;
