@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <tuple>
 
+#include "base/disjoint_sets.h"
 #include "base/error.h"
 #include "image/texel_spans.h"
 #include "mesh/edges.h"
@@ -12,25 +12,6 @@
 
 namespace viewcell {
 namespace {
-
-// Sets of triangles; each set's root is its lowest member.
-class TriangleSets {
- public:
-  explicit TriangleSets(std::size_t n) : parents_(n) {
-    std::iota(parents_.begin(), parents_.end(), 0u);
-  }
-  std::uint32_t root(std::uint32_t t) {
-    while (parents_[t] != t) t = parents_[t] = parents_[parents_[t]];
-    return t;
-  }
-  void join(std::uint32_t a, std::uint32_t b) {
-    a = root(a), b = root(b);
-    parents_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<std::uint32_t> parents_;
-};
 
 TriMesh weld_triangles(const TriMesh& mesh) {
   const std::vector<std::uint32_t> first_at = match_positions(mesh);
@@ -70,7 +51,7 @@ Charts find_charts(const TriMesh& mesh) {
   VIEWCELL_CHECK(mesh.texcoords.size() == 3 * mesh.triangles.size(), mesh.texcoords.size());
   const TriMesh welded = weld_triangles(mesh);
   const EdgeTable edges = build_edge_table(welded);
-  TriangleSets sets(mesh.triangles.size());
+  DisjointSets sets(mesh.triangles.size());
   std::vector<Side> sides;
   for (std::size_t e = 0; e < edges.size(); ++e) {
     sides.clear();
@@ -86,7 +67,7 @@ Charts find_charts(const TriMesh& mesh) {
   charts.of.assign(mesh.triangles.size(), kNoChart);
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
     if (edges.edge_of[3 * t] == kNoEdge || !has_finite_texcoords(mesh, t)) continue;
-    const std::uint32_t root = sets.root(t);
+    const std::uint32_t root = sets.find(t);
     if (root == t) {
       charts.of[t] = static_cast<std::uint32_t>(charts.size());
       charts.first.push_back(t);

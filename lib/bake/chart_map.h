@@ -13,7 +13,8 @@ inline constexpr std::uint32_t kNoChart = 0xffffffffu;
 
 /// A chart is a largest set of triangles that are connected across edges whose texture coordinates
 /// are equal at both ends; vertices at one position count as one. Charts are numbered by their
-/// lowest triangle.
+/// lowest triangle. (Parts that touch in one corner are two charts here, and one in
+/// pm/wedge_mesh.h, where that corner's wedge is shared.)
 struct Charts {
   std::vector<std::uint32_t> of;     ///< per triangle; kNoChart where two corners stand at one
                                      ///< position or a texture coordinate is not finite

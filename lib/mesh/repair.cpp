@@ -5,6 +5,8 @@
 #include <span>
 #include <tuple>
 
+#include "base/disjoint_sets.h"
+
 namespace viewcell {
 namespace {
 
@@ -75,25 +77,6 @@ struct LinkEdge {
   std::uint32_t from, to;
 };
 
-// Sets of small numbers, merged.
-class UnionFind {
- public:
-  explicit UnionFind(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0u); }
-  std::uint32_t find(std::uint32_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  /// True when they were in two sets.
-  bool merge(std::uint32_t a, std::uint32_t b) {
-    a = find(a), b = find(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-    return a != b;
-  }
-
- private:
-  std::vector<std::uint32_t> parent_;
-};
-
 // True when the edges form one open path or one cycle.
 bool is_path_or_cycle(std::span<const LinkEdge> link) {
   std::vector<std::uint32_t> names;
@@ -106,9 +89,9 @@ bool is_path_or_cycle(std::span<const LinkEdge> link) {
     return static_cast<std::uint32_t>(std::lower_bound(names.begin(), names.end(), name) -
                                       names.begin());
   };
-  UnionFind sets(names.size());
+  DisjointSets sets(names.size());
   std::size_t n_sets = names.size();
-  for (const LinkEdge& e : link) n_sets -= sets.merge(place(e.from), place(e.to));
+  for (const LinkEdge& e : link) n_sets -= sets.join(place(e.from), place(e.to));
   return n_sets == 1;
 }
 
@@ -118,7 +101,7 @@ void measure_vertices(const TriMesh& mesh, MeshTopology& out) {
       for (std::size_t k = 0; k < 3 && !repeats_index(t); ++k)
         emit(t[k], LinkEdge{t[(k + 1) % 3], t[(k + 2) % 3]});
   });
-  UnionFind components(mesh.positions.size());
+  DisjointSets components(mesh.positions.size());
   std::size_t n_referenced = 0;
   for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
     const std::span<const LinkEdge> link(links.begin(v), links.end(v));
@@ -134,8 +117,8 @@ void measure_vertices(const TriMesh& mesh, MeshTopology& out) {
   for (const Triangle& t : mesh.triangles) {
     if (repeats_index(t)) continue;
     ++n_triangles;
-    out.n_components -= components.merge(t[0], t[1]);
-    out.n_components -= components.merge(t[0], t[2]);
+    out.n_components -= components.join(t[0], t[1]);
+    out.n_components -= components.join(t[0], t[2]);
   }
   out.euler_characteristic = static_cast<std::int64_t>(n_referenced + n_triangles) -
                              static_cast<std::int64_t>(out.n_edges);

@@ -5,6 +5,7 @@
 #include <numeric>
 #include <tuple>
 
+#include "base/disjoint_sets.h"
 #include "base/error.h"
 
 namespace viewcell {
@@ -191,21 +192,15 @@ void find_texture_vertices(WedgeMesh& mesh) {
 }
 
 std::vector<std::uint32_t> find_charts(const WedgeMesh& mesh) {
-  std::vector<std::uint32_t> parent = identity(static_cast<std::uint32_t>(mesh.n_wedges()));
-  const auto root = [&](std::uint32_t w) {
-    while (parent[w] != w) w = parent[w] = parent[parent[w]];
-    return w;
-  };
-  const auto join = [&](std::uint32_t a, std::uint32_t b) {
-    a = root(mesh.texture_vertex[a]), b = root(mesh.texture_vertex[b]);
-    parent[std::max(a, b)] = std::min(a, b);
-  };
-  for (const Triangle& f : mesh.faces) join(f[0], f[1]), join(f[0], f[2]);
+  DisjointSets sets(mesh.n_wedges());
+  const auto vertex = [&](std::uint32_t wedge) { return mesh.texture_vertex[wedge]; };
+  for (const Triangle& f : mesh.faces)
+    sets.join(vertex(f[0]), vertex(f[1])), sets.join(vertex(f[0]), vertex(f[2]));
   constexpr std::uint32_t kNone = 0xffffffffu;
   std::vector<std::uint32_t> chart_of(mesh.n_wedges(), kNone), charts;
   std::uint32_t n_charts = 0;
   for (const Triangle& f : mesh.faces) {
-    std::uint32_t& chart = chart_of[root(mesh.texture_vertex[f[0]])];
+    std::uint32_t& chart = chart_of[sets.find(vertex(f[0]))];
     if (chart == kNone) chart = n_charts++;
     charts.push_back(chart);
   }

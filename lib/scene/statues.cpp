@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <string_view>
 
+#include "base/disjoint_sets.h"
 #include "base/error.h"
 #include "pm/simplify.h"
 #include "scene/figures.h"
@@ -64,24 +64,15 @@ TriMesh polygonise_to_count(const Figure& figure, double n, int n_threads) {
 
 // The connected piece with the most triangles (a detail below the grid's cell may come off).
 TriMesh largest_piece(const TriMesh& mesh) {
-  std::vector<std::uint32_t> root(mesh.positions.size());
-  std::iota(root.begin(), root.end(), 0u);
-  const auto find = [&](std::uint32_t v) {
-    while (root[v] != v) v = root[v] = root[root[v]];
-    return v;
-  };
-  for (const Triangle& t : mesh.triangles)
-    for (const std::uint32_t v : {t[1], t[2]}) {
-      const auto [a, b] = std::minmax({find(t[0]), find(v)});
-      root[b] = a;
-    }
-  std::vector<std::size_t> count(root.size(), 0);
-  for (const Triangle& t : mesh.triangles) ++count[find(t[0])];
+  DisjointSets sets(mesh.positions.size());
+  for (const Triangle& t : mesh.triangles) sets.join(t[0], t[1]), sets.join(t[0], t[2]);
+  std::vector<std::size_t> count(mesh.positions.size(), 0);
+  for (const Triangle& t : mesh.triangles) ++count[sets.find(t[0])];
   const auto largest =
       static_cast<std::uint32_t>(std::max_element(count.begin(), count.end()) - count.begin());
   std::vector<Triangle> kept;
   for (const Triangle& t : mesh.triangles)
-    if (find(t[0]) == largest) kept.push_back(t);
+    if (sets.find(t[0]) == largest) kept.push_back(t);
   return compact(mesh, kept).mesh;
 }
 
