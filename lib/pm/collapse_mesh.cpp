@@ -5,13 +5,6 @@
 #include <utility>
 
 namespace viewcell {
-
-const char* refusal_name(Refusal refusal) {
-  constexpr const char* names[kRefusalKinds] = {"none",  "link", "boundary", "flip",  "sliver",
-                                                "chart", "fold", "overlap",  "bound", "metric"};
-  return names[static_cast<int>(refusal)];
-}
-
 namespace {
 
 bool contains(std::span<const std::uint32_t> values, std::uint32_t x) {
