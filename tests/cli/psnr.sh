@@ -2,31 +2,10 @@
 # Types psnr's commands and holds exit codes, streams and reports. First argument: the folder of
 # binaries.
 set -euo pipefail
-set -- "$(cd "$1" && pwd)"
-psnr=$1/psnr
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-cd "$work"
+. "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
+start "$1"
+psnr=$bin/psnr
 
-fail() { echo "psnr.sh: $*" >&2; exit 1; }
-
-# expect CODE COMMAND...: the exit code; stdout and stderr go to out and err.
-expect() {
-  local code=$1 got=0
-  shift
-  "$@" >out 2>err </dev/null || got=$?
-  [ "$got" -eq "$code" ] || { cat out err >&2; fail "'$*' exits with $got, not $code"; }
-}
-# An error: nothing on stdout, one line on stderr that begins with the tool's name and has the text.
-expect_error() {
-  local code=$1 text=$2
-  shift 2
-  expect "$code" "$@"
-  [ ! -s out ] || fail "'$*' writes to stdout"
-  [ "$(wc -l <err)" -eq 1 ] || { cat err >&2; fail "'$*': not one line on stderr"; }
-  grep -q "^psnr: " err || fail "'$*': $(cat err)"
-  grep -qF -- "$text" err || fail "'$*': no '$text' in: $(cat err)"
-}
 # Gray pictures: a is 100 everywhere, b 101, both 20 x 15; turned is 15 x 20; huge says that it is
 # 60000 x 60000.
 base64 -d >a.png <<<iVBORw0KGgoAAAANSUhEUgAAABQAAAAPCAAAAADB87CJAAAAEUlEQVR42mNIwQIYRgWJEAQAHnt1MQgniOIAAAAASUVORK5CYII=
@@ -36,47 +15,47 @@ base64 -d >huge.png <<<iVBORw0KGgoAAAANSUhEUgAA6mAAAOpgCAAAAACluSqeAAAACklEQVR42
 
 # The words and the numbers.
 expect 0 "$psnr" --help
-grep -q "Example:" out || fail "--help has no example"
+grep -q "Example:" "$log/out" || fail "--help has no example"
 expect 0 "$psnr" --version
 expect 0 "$psnr" a.png a.png
-grep -q "100.000" out || fail "identical pictures are not at 100 dB"
+grep -q "100.000" "$log/out" || fail "identical pictures are not at 100 dB"
 expect 0 "$psnr" a.png b.png
-grep -q "48.131" out || fail "an offset of one is not 48.131 dB: $(cat out)"
-[ ! -s err ] || fail "words on stderr: $(cat err)"
+grep -q "48.131" "$log/out" || fail "an offset of one is not 48.131 dB: $(cat "$log/out")"
+[ ! -s "$log/err" ] || fail "words on stderr: $(cat "$log/err")"
 
 # JSON, alone on stdout when asked for there.
 expect 0 "$psnr" a.png b.png --json -
-head -c 1 out | grep -q "{" || fail "stdout is not only JSON"
+head -c 1 "$log/out" | grep -q "{" || fail "stdout is not only JSON"
 for key in psnr_db psnr_covered_db ssim snr_db rms max_abs width_px height_px; do
-  grep -q "\"$key\": " out || fail "no $key in the report"
+  grep -q "\"$key\": " "$log/out" || fail "no $key in the report"
 done
-grep -q '"max_abs": 1.0' out || fail "max_abs"
+grep -q '"max_abs": 1.0' "$log/out" || fail "max_abs"
 expect 0 "$psnr" a.png b.png --json report.json -o table.txt
-[ ! -s out ] && [ -s report.json ] && [ -s table.txt ] || fail "-o and --json"
+[ ! -s "$log/out" ] && [ -s report.json ] && [ -s table.txt ] || fail "-o and --json"
 expect 0 "$psnr" a.png b.png --no-ssim --json -
-grep -q '"ssim": null' out || fail "--no-ssim"
+grep -q '"ssim": null' "$log/out" || fail "--no-ssim"
 
 # Standard input for either.
-got=0; "$psnr" - b.png <a.png >out || got=$?
-[ $got -eq 0 ] && grep -q "48.131" out || fail "reference from stdin"
-got=0; "$psnr" a.png - <b.png >out || got=$?
-[ $got -eq 0 ] && grep -q "48.131" out || fail "tested picture from stdin"
+got=0; "$psnr" - b.png <a.png >"$log/out" || got=$?
+[ $got -eq 0 ] && grep -q "48.131" "$log/out" || fail "reference from stdin"
+got=0; "$psnr" a.png - <b.png >"$log/out" || got=$?
+[ $got -eq 0 ] && grep -q "48.131" "$log/out" || fail "tested picture from stdin"
 
 # The threshold.
 expect 0 "$psnr" a.png b.png --fail-below 48
 expect 5 "$psnr" a.png b.png --fail-below 49
-grep -q "48.131" out || fail "no table beside exit code 5"
+grep -q "48.131" "$log/out" || fail "no table beside exit code 5"
 
 # Folders.
 mkdir A B
 for i in 1 2 3; do cp a.png "A/$i.png"; cp b.png "B/$i.png"; done
 cp a.png B/2.png
 expect 0 "$psnr" A B --json -
-grep -q '"pairs"' out && grep -q '"summary"' out && grep -q '"name": "3.png"' out || fail "folders"
-cp out first
+grep -q '"pairs"' "$log/out" && grep -q '"summary"' "$log/out" && grep -q '"name": "3.png"' "$log/out" || fail "folders"
+cp "$log/out" first
 for j in 1 2 8; do
   expect 0 "$psnr" A B --json - -j $j
-  cmp -s out first || fail "-j $j gives another report"
+  cmp -s "$log/out" first || fail "-j $j gives another report"
 done
 expect 5 "$psnr" A B --fail-below 60
 expect 0 "$psnr" A B --diff D --gain 100
@@ -85,28 +64,28 @@ expect 0 "$psnr" a.png b.png --diff d.png
 expect 0 "$psnr" a.png b.png --diff d2.png
 cmp -s d.png d2.png || fail "--diff is not the same twice"
 rm B/3.png
-expect_error 1 "has no '3.png'" "$psnr" A B
+fault 1 "has no '3.png'" "$psnr" A B
 
 # Misuse.
-expect_error 2 "TESTED is required" "$psnr" a.png
-expect_error 2 "two pictures or two folders" "$psnr" a.png A
-expect_error 2 "standard input" "$psnr" - -
-expect_error 2 "--gain" "$psnr" a.png b.png --gain nan
-expect_error 2 "--colour" "$psnr" a.png b.png --colour
+fault 2 "TESTED is required" "$psnr" a.png
+fault 2 "two pictures or two folders" "$psnr" a.png A
+fault 2 "standard input" "$psnr" - -
+fault 2 "--gain" "$psnr" a.png b.png --gain nan
+fault 2 "--colour" "$psnr" a.png b.png --colour
 
 # Bad input.
-expect_error 1 "missing.png" "$psnr" a.png missing.png
-expect_error 1 "missing: does not exist" "$psnr" A missing
-expect_error 1 "turned.png: is 15 x 20 pixels" "$psnr" a.png turned.png
+fault 1 "missing.png" "$psnr" a.png missing.png
+fault 1 "missing: does not exist" "$psnr" A missing
+fault 1 "turned.png: is 15 x 20 pixels" "$psnr" a.png turned.png
 : >empty.png
-expect_error 1 "empty.png" "$psnr" a.png empty.png
+fault 1 "empty.png" "$psnr" a.png empty.png
 head -c 60 a.png >cut.png
-expect_error 1 "cut.png" "$psnr" a.png cut.png
-expect_error 1 "60000 x 60000 pixels" "$psnr" a.png huge.png
+fault 1 "cut.png" "$psnr" a.png cut.png
+fault 1 "60000 x 60000 pixels" "$psnr" a.png huge.png
 printf 'v 0 0 0\n' >text.png
-expect_error 1 "text.png: is not a PNG" "$psnr" a.png text.png
+fault 1 "text.png: is not a PNG" "$psnr" a.png text.png
 mkdir E
-expect_error 1 "E: has no pictures" "$psnr" A E
+fault 1 "E: has no pictures" "$psnr" A E
 
 # Indexing maps: the identity against itself in 16 bits, and a coarse level's; inside a chart.
 maps() { expect 0 "$psnr" "$@" --index-maps --json report.json -o table.txt; }
@@ -128,9 +107,9 @@ f 2/2 3/3 5/5
 f 3/3 4/4 5/5
 f 4/4 1/1 5/5
 OBJ
-"$1/pmesh" build square.obj --metric qem3 -o square.pm -q
-for ending in exr tif; do "$1/texadapt" square.pm a.png --faces 4 -o fine.$ending -q; done
-"$1/texadapt" square.pm a.png --faces 2 -o coarse.exr -q
+"$bin/pmesh" build square.obj --metric qem3 -o square.pm -q
+for ending in exr tif; do "$bin/texadapt" square.pm a.png --faces 4 -o fine.$ending -q; done
+"$bin/texadapt" square.pm a.png --faces 2 -o coarse.exr -q
 maps fine.exr fine.exr
 holds rms_texels "== 0" && holds share_within_texel "== 1" && holds texels "== 300"
 maps fine.exr fine.tif
@@ -142,19 +121,19 @@ maps fine.exr coarse.exr --inside square.obj
 holds texels "== 150"
 holds rms_texels "> 1.2 * $all"  # the other half did not move
 expect 0 "$psnr" fine.exr coarse.exr --index-maps
-grep -q "RMS texels" out || fail "no table: $(cat out)"
-expect_error 2 "--index-maps" "$psnr" fine.exr coarse.exr --inside square.obj
-expect_error 2 "--fail-below" "$psnr" fine.exr coarse.exr --index-maps --fail-below 3
-expect_error 1 "a.png: is not a TIFF or EXR" "$psnr" fine.exr a.png --index-maps
-expect_error 1 "missing.obj" "$psnr" fine.exr coarse.exr --index-maps --inside missing.obj
+grep -q "RMS texels" "$log/out" || fail "no table: $(cat "$log/out")"
+fault 2 "--index-maps" "$psnr" fine.exr coarse.exr --inside square.obj
+fault 2 "--fail-below" "$psnr" fine.exr coarse.exr --index-maps --fail-below 3
+fault 1 "a.png: is not a TIFF or EXR" "$psnr" fine.exr a.png --index-maps
+fault 1 "missing.obj" "$psnr" fine.exr coarse.exr --index-maps --inside missing.obj
 sed '/^vt/d; s,/[0-9],,g' square.obj >bare.obj
-expect_error 1 "bare.obj: has no texture coordinates" "$psnr" fine.exr coarse.exr --index-maps --inside bare.obj
+fault 1 "bare.obj: has no texture coordinates" "$psnr" fine.exr coarse.exr --index-maps --inside bare.obj
 sed 's/^vt /vt 7/' square.obj >aside.obj
-expect_error 1 "aside.obj: no texel lies inside" "$psnr" fine.exr coarse.exr --index-maps --inside aside.obj
-"$1/texadapt" square.pm a.png --faces 2 --size 15x20 -o turned.exr -q
-expect_error 1 "turned.exr: is 15 x 20 texels" "$psnr" fine.exr turned.exr --index-maps
+fault 1 "aside.obj: no texel lies inside" "$psnr" fine.exr coarse.exr --index-maps --inside aside.obj
+"$bin/texadapt" square.pm a.png --faces 2 --size 15x20 -o turned.exr -q
+fault 1 "turned.exr: is 15 x 20 texels" "$psnr" fine.exr turned.exr --index-maps
 
 # The machine's fault, and nothing left behind.
-expect_error 3 "no/d.png" "$psnr" a.png b.png --diff no/d.png
+fault 3 "no/d.png" "$psnr" a.png b.png --diff no/d.png
 [ -z "$(find . -name '.tmp-*')" ] || fail "temporaries are left"
 echo "psnr.sh: all well"

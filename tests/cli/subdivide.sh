@@ -5,8 +5,6 @@ set -euo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
 start "$1"
 subdivide=$bin/subdivide
-key() { sed -n "s/.*\"$1\": \([^,]*\),*$/\1/p" "$log/out"; }  # of the report on stdout
-is() { [ "$(key "$1")" = "$2" ] || fail "$1 is $(key "$1"), not $2"; }
 
 # Two triangles of a square, the corners of one edge twice, in two charts with a gap between them.
 cat >square.obj <<'OBJ'

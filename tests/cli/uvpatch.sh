@@ -5,8 +5,6 @@ set -euo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
 start "$1"
 uvpatch=$bin/uvpatch
-key() { sed -n "s/.*\"$1\": \([^,]*\),*$/\1/p" "$log/out"; }  # of the report on stdout
-is() { [ "$(key "$1")" = "$2" ] || fail "$1 is $(key "$1"), not $2"; }
 
 ball 12 3 >ball.off  # 528 triangles; vertex 0 is the top
 
