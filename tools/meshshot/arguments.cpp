@@ -17,9 +17,8 @@ void declare_surface(CLI::App& app, MeshshotArguments& o) {
   app.add_option(
       "--texture", o.texture,
       "picture for the mesh's texture coordinates, repeated, filtered with mipmaps: a file, a "
-      "GLB's "
-      "base colour, or model.glb#normal (also #emissive, #occlusion, #metallicRoughness); textures "
-      "that MESH names or holds are not read unless they are given here");
+      "GLB's base colour, or model.glb#normal (also #emissive, #occlusion, #metallicRoughness); "
+      "textures that MESH names or holds are not read unless they are given here");
   app.add_option(
       "--normal-map", o.normal_map,
       "tangent-space normal map for the same coordinates, named as a texture is: lights relief");
