@@ -8,6 +8,7 @@
 #include <cstdio>
 
 #include "bake/adapt_packs.h"
+#include "bake/bump.h"
 #include "bake/texel_owners.h"
 #include "gl/context.h"
 #include "pm/build.h"
@@ -26,12 +27,8 @@ const Gl& gl() {
 
 // A bump over the unit square, with a texture that is the view from above, in waves so that borders
 // move with collapses; or with two charts that split it at x = 1/2 and lie a few texels apart.
-TriMesh make_bump(bool is_split, float half_gap) {
-  TriMesh grid = make_flat_grid(16);
-  for (glm::vec3& p : grid.positions) {
-    const float x = p.x / 16 - 0.5f, y = p.y / 16 - 0.5f;
-    p = {p.x / 16, p.y / 16, 0.4f * std::exp(-12 * (x * x + y * y))};
-  }
+TriMesh make_wavy_bump(bool is_split, float half_gap) {
+  TriMesh grid = make_bare_bump(0.4f);
   for (const Triangle& t : grid.triangles) {
     float middle = 0;
     for (const std::uint32_t v : t) middle += grid.positions[v].x / 3;
@@ -52,7 +49,7 @@ struct Levels {
 
   // half_gap: of the texture, between the charts.
   explicit Levels(bool is_split, float half_gap = 0.01f)
-      : Levels(build(make_bump(is_split, half_gap), 40)) {}
+      : Levels(build(make_wavy_bump(is_split, half_gap), 40)) {}
   explicit Levels(const TriMesh& input) : Levels(build(input, 2)) {}
   LevelCharts charts(std::size_t n_collapsed) {
     mesh.set_level(mesh.n_splits() - n_collapsed);

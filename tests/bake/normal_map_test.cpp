@@ -4,32 +4,17 @@
 
 #include <cmath>
 
+#include "bake/bump.h"
 #include "bake/texture_adapt.h"
 #include "bake/triangle_grid.h"
 #include "base/random.h"
 #include "mesh/tangents.h"
 #include "pm/build.h"
-#include "pm/shapes.h"
 
 namespace viewcell {
 namespace {
 
 constexpr double kHeight = 0.3;
-
-// A bump over the unit square, with a texture that is the view from above.
-TriMesh make_bump(bool is_mirrored = false) {
-  TriMesh grid = make_flat_grid(16);
-  for (glm::vec3& p : grid.positions) {
-    const float x = p.x / 16 - 0.5f, y = p.y / 16 - 0.5f;
-    p = {p.x / 16, p.y / 16, kHeight * std::exp(-12 * (x * x + y * y))};
-  }
-  for (const Triangle& t : grid.triangles)
-    for (const std::uint32_t v : t) {
-      const float u = 0.1f + 0.8f * grid.positions[v].x;
-      grid.texcoords.emplace_back(is_mirrored ? 1 - u : u, 0.1f + 0.8f * grid.positions[v].y);
-    }
-  return grid;
-}
 
 // A mesh of the finest level, and of one of n faces with its indexing map.
 struct Levels {
@@ -128,7 +113,7 @@ TEST(NormalCode, EveryCodeComesBack) {
 // Against all triangles, inside, beside and far off. Seeded.
 TEST(TriangleGrid, FindsWhatTryingAllFinds) {
   Random random(3);
-  TriMesh mesh = make_bump();
+  TriMesh mesh = make_bump(kHeight);
   std::vector<std::uint32_t> charts;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) charts.push_back(t % 3 == 0);
   for (glm::vec2& uv : mesh.texcoords) uv.y *= 0.3f;
@@ -160,7 +145,7 @@ TEST(NormalMapBake, TheFinestLevelKeepsEveryCode) {
     p = {std::uint8_t(60 + random.below(136)), std::uint8_t(60 + random.below(136)),
          std::uint8_t(160 + random.below(90)), 255};
   for (const bool is_mirrored : {false, true}) {
-    const Levels levels(make_bump(is_mirrored), 1000000, 128);
+    const Levels levels(make_bump(kHeight, is_mirrored), 1000000, 128);
     const BakedNormalMap baked = levels.bake(&noise);
     EXPECT_EQ(baked.n_clamped, 0u);
     EXPECT_NEAR(double(baked.n_texels), 105 * 105, 250);
@@ -178,7 +163,7 @@ TEST(NormalMapBake, LevelsShowTheNormalsOfTheFinest) {
   for (const auto& [n, is_mirrored, placement] :
        {std::tuple{300, false, Placement::half}, std::tuple{110, true, Placement::half},
         std::tuple{60, false, Placement::half}, std::tuple{150, true, Placement::full}}) {
-    const Levels levels(make_bump(is_mirrored), std::size_t(n), kSize, placement);
+    const Levels levels(make_bump(kHeight, is_mirrored), std::size_t(n), kSize, placement);
     const ImageRgba8 relief = make_relief(96, std::uint64_t(n));  // of another size
     const BakedNormalMap baked = levels.bake(&relief);
     const Surface finest{levels.finest}, level{levels.level};
@@ -205,7 +190,7 @@ TEST(NormalMapBake, LevelsShowTheNormalsOfTheFinest) {
 // Without a map, the normals of the bump itself, by its formula, at the places that the map holds.
 TEST(NormalMapBake, FlatOnesHoldTheShadingOfTheFinest) {
   constexpr int kSize = 128;
-  const Levels levels(make_bump(), 80, kSize);
+  const Levels levels(make_bump(kHeight), 80, kSize);
   const BakedNormalMap baked = levels.bake(nullptr);
   const Surface level{levels.level};
   double sum = 0, of_level = 0, n = 0;
@@ -225,7 +210,7 @@ TEST(NormalMapBake, FlatOnesHoldTheShadingOfTheFinest) {
 }
 
 TEST(NormalMapBake, GreenMayPointDown) {
-  const Levels levels(make_bump(), 100, 96);
+  const Levels levels(make_bump(kHeight), 100, 96);
   const ImageRgba8 up = make_relief(96, 4);
   ImageRgba8 down = up;
   for (Rgba8& p : down.pixels) p[1] = static_cast<std::uint8_t>(255 - p[1]);
@@ -235,7 +220,7 @@ TEST(NormalMapBake, GreenMayPointDown) {
 }
 
 TEST(NormalMapBake, TheSameBytesForAnyNumberOfThreads) {
-  const Levels levels(make_bump(), 100, 96);
+  const Levels levels(make_bump(kHeight), 100, 96);
   const ImageRgba8 relief = make_relief(64, 5);
   const BakedNormalMap one = levels.bake(&relief, {.n_threads = 1});
   const BakedNormalMap three = levels.bake(&relief, {.n_threads = 3});

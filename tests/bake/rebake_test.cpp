@@ -5,28 +5,21 @@
 #include <cmath>
 
 #include "bake/atlas_cube.h"
+#include "bake/bump.h"
 #include "bake/chart_map.h"
 #include "base/random.h"
+#include "image/pixels.h"
+#include "image/random_image.h"
 #include "image/texel_spans.h"
 #include "mesh/closest_point.h"
 #include "pm/build.h"
-#include "pm/shapes.h"
 
 namespace viewcell {
 namespace {
 
 ImageRgba8 make_noise(int width_px, int height_px, std::uint64_t seed) {
   Random random(seed);
-  ImageRgba8 image(width_px, height_px);
-  for (Rgba8& texel : image.pixels)
-    for (std::uint8_t& value : texel) value = static_cast<std::uint8_t>(random.below(256));
-  return image;
-}
-
-int greatest_difference(const Rgba8& a, const Rgba8& b) {
-  int most = 0;
-  for (std::size_t k = 0; k < 4; ++k) most = std::max(most, std::abs(int{a[k]} - int{b[k]}));
-  return most;
+  return random_image(width_px, height_px, random);
 }
 
 // The number of texels whose centre lies in a chart; each must be the same in both, to 1.
@@ -36,23 +29,9 @@ std::size_t expect_same_inside(const TriMesh& mesh, const ImageRgba8& a, const I
   for (std::size_t i = 0; i < owner.pixels.size(); ++i) {
     if (owner.pixels[i] == 0) continue;
     ++n;
-    EXPECT_LE(greatest_difference(a.pixels[i], b.pixels[i]), 1) << i;
+    EXPECT_LE(most_difference(a.pixels[i], b.pixels[i]), 1) << i;
   }
   return n;
-}
-
-// A bump over the unit square, with a texture that is the view from above.
-TriMesh make_bump(float height) {
-  TriMesh grid = make_flat_grid(16);
-  for (glm::vec3& p : grid.positions) {
-    const float x = p.x / 16 - 0.5f, y = p.y / 16 - 0.5f;
-    p = {p.x / 16, p.y / 16, height * std::exp(-12 * (x * x + y * y))};
-  }
-  for (const Triangle& t : grid.triangles)
-    for (const std::uint32_t v : t)
-      grid.texcoords.emplace_back(0.1f + 0.8f * grid.positions[v].x,
-                                  0.1f + 0.8f * grid.positions[v].y);
-  return grid;
 }
 
 TriMesh simplify(const TriMesh& mesh, std::size_t n_faces) {

@@ -5,26 +5,12 @@
 #include <cmath>
 
 #include "bake/bake_texture.h"
+#include "bake/bump.h"
 #include "mesh/closest_point.h"
 #include "pm/build.h"
-#include "pm/shapes.h"
 
 namespace viewcell {
 namespace {
-
-// A bump over the unit square, with a texture that is the view from above.
-TriMesh make_bump(float height) {
-  TriMesh grid = make_flat_grid(16);
-  for (glm::vec3& p : grid.positions) {
-    const float x = p.x / 16 - 0.5f, y = p.y / 16 - 0.5f;
-    p = {p.x / 16, p.y / 16, height * std::exp(-12 * (x * x + y * y))};
-  }
-  for (const Triangle& t : grid.triangles)
-    for (const std::uint32_t v : t)
-      grid.texcoords.emplace_back(0.1f + 0.8f * grid.positions[v].x,
-                                  0.1f + 0.8f * grid.positions[v].y);
-  return grid;
-}
 
 // A progressive mesh, its log, and a map that follows it from the finest level on.
 struct Adapted {

@@ -7,7 +7,9 @@
 #include "base/error.h"
 #include "base/random.h"
 #include "base/srgb.h"
+#include "front_square.h"
 #include "gl_fixture.h"
+#include "image/pixels.h"
 #include "play/index_map_lookup.h"
 #include "play/mesh_renderer.h"
 
@@ -17,45 +19,15 @@ namespace {
 constexpr int kSize = 192;
 
 MeshStyle unlit_style() {
-  MeshStyle style;
-  style.size_px = kSize;
-  style.samples = 1;
+  MeshStyle style = plain_style(kSize);
   style.lit = false;
   return style;
-}
-
-// A square in the plane y = 0, from (-1, -1) to (1, 1) in x and z, with texture coordinates
-// place(u, v) at its corners.
-template <typename Place>
-TriMesh make_square(const Place& place) {
-  TriMesh mesh;
-  mesh.positions = {{-1, 0, -1}, {1, 0, -1}, {1, 0, 1}, {-1, 0, 1}};
-  mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
-  const glm::vec2 uv[4] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
-  for (const Triangle& t : mesh.triangles)
-    for (const std::uint32_t v : t) mesh.texcoords.push_back(place(uv[v]));
-  return mesh;
-}
-
-Camera front_view() {
-  Camera camera = make_views(1)[0];
-  camera.eye = {0, -glm::length(camera.eye), 0};
-  camera.forward = {0, 1, 0};
-  return camera;
 }
 
 ImageRgba8 draw(const TriMesh& mesh, const ImageRgba8& texture, const IndexMap* map,
                 const Camera& view = front_view(), const MeshStyle& style = unlit_style()) {
   const MeshFrame frame = make_frame(box_of_triangles(mesh), "z", "mesh");
   return MeshRenderer(shared_context().gl(), mesh, frame, &texture, style, map).draw(view);
-}
-
-int most_difference(const ImageRgba8& a, const ImageRgba8& b) {
-  int most = 0;
-  for (std::size_t p = 0; p < a.pixels.size(); ++p)
-    for (std::size_t c = 0; c < 4; ++c)
-      most = std::max(most, std::abs(int{a.pixels[p][c]} - int{b.pixels[p][c]}));
-  return most;
 }
 
 // place(u, v) at every texel's centre.
@@ -93,8 +65,8 @@ TEST(IndexMap, IdentityChangesNothing) {
   const ImageRgba8 texture = make_waves(96, 64, 60, random);
   for (const float repeats : {1.f, 3.f, 17.f})  // magnified and minified
     for (const bool flip_v : {false, true}) {
-      const TriMesh mesh =
-          make_square([&](const glm::vec2& uv) { return repeats * uv - glm::vec2(1.3f, 0.4f); });
+      const TriMesh mesh = make_front_square(
+          [&](const glm::vec2& uv) { return repeats * uv - glm::vec2(1.3f, 0.4f); });
       MeshStyle style = unlit_style();
       style.flip_v = flip_v;
       for (const glm::ivec2 size : {glm::ivec2(96, 64), glm::ivec2(31, 50), glm::ivec2(1, 1)}) {
@@ -122,10 +94,10 @@ TEST(IndexMap, AffineMapsAreAffineTextureCoordinates) {
     const auto inner = [](const glm::vec2& uv) { return 0.1f + 0.8f * uv; };  // off the sides
     const IndexMap map = make_map(64, 48, send);
     for (const Camera& view : {front_view(), make_views(4)[1]}) {
-      const ImageRgba8 seen = draw(make_square(inner), texture, &map, view);
+      const ImageRgba8 seen = draw(make_front_square(inner), texture, &map, view);
       const ImageRgba8 expected =
-          draw(make_square([&](const glm::vec2& uv) { return send(inner(uv)); }), texture, nullptr,
-               view);
+          draw(make_front_square([&](const glm::vec2& uv) { return send(inner(uv)); }), texture,
+               nullptr, view);
       EXPECT_LE(most_difference(seen, expected), 2) << i;
     }
   }
@@ -223,7 +195,7 @@ TEST(IndexMap, DrawsWhatItsTwinComputes) {
   std::size_t n_plain = 0, n_jumps = 0;
   for (int i = 0; i < 4; ++i) {
     const IndexMap map = make_charts(32, 40, random);
-    const ImageRgba8 image = draw(make_square(same), texture, &map);
+    const ImageRgba8 image = draw(make_front_square(same), texture, &map);
     for (int y = 0; y < kSize; ++y)
       for (int x = 0; x < kSize; ++x) {
         const glm::dvec2 uv = uv_of_pixel(x, y);
@@ -253,7 +225,7 @@ TEST(IndexMap, NothingForeignIsSeenBetweenCharts) {
     return glm::vec2(uv.x < 0.5f ? 0.05f + 0.4f * uv.x : 0.55f + 0.4f * uv.x, uv.y);
   });
   for (const Camera& view : {front_view(), make_views(3)[1]}) {
-    const ImageRgba8 image = draw(make_square(same), texture, &map, view);
+    const ImageRgba8 image = draw(make_front_square(same), texture, &map, view);
     std::size_t n_red = 0, n_blue = 0;
     for (const Rgba8& p : image.pixels) {
       if (p[3] == 0) continue;
@@ -277,7 +249,7 @@ TEST(IndexMap, JumpsDoNotBlurTheTexture) {
     const IndexMap map = make_map(27, 32, [jump](const glm::vec2& uv) {
       return glm::vec2(uv.x < jump ? uv.x : uv.x + 16, uv.y);
     });
-    const ImageRgba8 image = draw(make_square(same), texture, &map);
+    const ImageRgba8 image = draw(make_front_square(same), texture, &map);
     for (int y = 0; y < kSize; ++y)
       for (int x = 0; x < kSize; ++x) {
         const glm::dvec2 uv = uv_of_pixel(x, y);
@@ -293,7 +265,7 @@ TEST(IndexMap, JumpsDoNotBlurTheTexture) {
 }
 
 TEST(IndexMap, WithoutATextureIsABug) {
-  const TriMesh mesh = make_square(same);
+  const TriMesh mesh = make_front_square(same);
   const IndexMap map = make_map(4, 4, same);
   EXPECT_THROW(MeshRenderer(shared_context().gl(), mesh, MeshFrame{}, nullptr, unlit_style(), &map),
                BugError);

@@ -7,20 +7,15 @@
 
 #include "base/error.h"
 #include "base/srgb.h"
+#include "front_square.h"
 #include "gl_fixture.h"
+#include "image/pixels.h"
 #include "small_scene.h"
 
 namespace viewcell {
 namespace {
 
 constexpr int kSize = 128;
-
-MeshStyle plain_style() {
-  MeshStyle style;
-  style.size_px = kSize;
-  style.samples = 1;
-  return style;
-}
 
 MeshFrame own_frame(const TriMesh& mesh, const char* up = "z") {
   return make_frame(box_of_triangles(mesh), up, "mesh");
@@ -30,17 +25,6 @@ ImageRgba8 draw(const TriMesh& mesh, const Camera& view, const MeshStyle& style,
                 const ImageRgba8* texture = nullptr, const MeshFrame* frame = nullptr) {
   const MeshFrame own = frame ? *frame : own_frame(mesh);
   return MeshRenderer(shared_context().gl(), mesh, own, texture, style).draw(view);
-}
-
-int most_difference(const Rgba8& a, const Rgba8& b) {
-  int most = 0;
-  for (std::size_t c = 0; c < 4; ++c) most = std::max(most, std::abs(int{a[c]} - int{b[c]}));
-  return most;
-}
-
-Rgba8 encoded(const glm::vec3& linear, std::uint8_t alpha = 255) {
-  return {srgb8_from_linear(linear.x), srgb8_from_linear(linear.y), srgb8_from_linear(linear.z),
-          alpha};
 }
 
 std::size_t count_covered(const ImageRgba8& image) {
@@ -69,24 +53,9 @@ TriMesh make_sphere(int n) {
   return mesh;
 }
 
-// Looks at the middle of the frame from the front, level: image x is x, image y is -z.
-Camera front_view() {
-  Camera camera = make_views(1)[0];
-  camera.eye = {0, -glm::length(camera.eye), 0};
-  camera.forward = {0, 1, 0};
-  return camera;
-}
-
-// A square in the plane y = 0 that faces the front, in a frame that it fills to 0.7; (0, 0) at the
-// lower left corner, (repeats, repeats) at the upper right one.
+// In a frame that it fills to 0.7; (repeats, repeats) at the upper right corner.
 TriMesh make_square(float repeats = 1) {
-  TriMesh mesh;
-  mesh.positions = {{-1, 0, -1}, {1, 0, -1}, {1, 0, 1}, {-1, 0, 1}};
-  mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
-  const glm::vec2 uv[4] = {{0, 0}, {repeats, 0}, {repeats, repeats}, {0, repeats}};
-  for (const Triangle& t : mesh.triangles)
-    for (const std::uint32_t v : t) mesh.texcoords.push_back(uv[v]);
-  return mesh;
+  return make_front_square([&](const glm::vec2& uv) { return repeats * uv; });
 }
 
 // The pixel that shows (u, v) of the square with one repeat.
@@ -113,7 +82,8 @@ ImageRgba8 make_quadrants(int width, int height) {
 
 TEST(MeshRenderer, SphereCoversAsManyPixelsInEveryView) {
   const TriMesh sphere = make_sphere(64);
-  const MeshRenderer renderer(shared_context().gl(), sphere, kUnitFrame, nullptr, plain_style());
+  const MeshRenderer renderer(shared_context().gl(), sphere, kUnitFrame, nullptr,
+                              plain_style(kSize));
   // The rim is seen under asin(1 / distance).
   const double distance = glm::length(make_views(1)[0].eye);
   const double radius_px =
@@ -144,7 +114,7 @@ bool hit_sphere(const Camera& view, int x, int y, glm::dvec3& normal) {
 TEST(MeshRenderer, LitSphereHasTheColoursOfTheLightingFunction) {
   const TriMesh sphere = make_sphere(96);
   for (const bool light_follows : {false, true}) {
-    MeshStyle style = plain_style();
+    MeshStyle style = plain_style(kSize);
     style.light_follows = light_follows;
     style.base_color = {0.7f, 0.4f, 0.2f};
     const MeshRenderer renderer(shared_context().gl(), sphere, kUnitFrame, nullptr, style);
@@ -168,7 +138,7 @@ TEST(MeshRenderer, LitSphereHasTheColoursOfTheLightingFunction) {
 
 // The square's side is sqrt(2) of a radius.
 TEST(MeshRenderer, SquareCoversItsPixels) {
-  const MeshStyle style = plain_style();
+  const MeshStyle style = plain_style(kSize);
   const double side_px = kSize * glm::one_over_root_two<double>() /
                          (glm::length(front_view().eye) * std::tan(glm::radians(kViewFovDeg / 2)));
   const ImageRgba8 image = draw(make_square(), front_view(), style);
@@ -177,7 +147,7 @@ TEST(MeshRenderer, SquareCoversItsPixels) {
 
 // Pixels at the rim are part sky, and yet covered.
 TEST(MeshRenderer, BackgroundIsTheSkyWithoutAlpha) {
-  MeshStyle style = plain_style();
+  MeshStyle style = plain_style(kSize);
   style.samples = 3;
   style.lit = false;
   const ImageRgba8 image = draw(make_square(), make_views(1)[0], style);
@@ -198,7 +168,7 @@ TEST(MeshRenderer, BackgroundIsTheSkyWithoutAlpha) {
 }
 
 TEST(MeshRenderer, TextureStandsUpright) {
-  MeshStyle style = plain_style();
+  MeshStyle style = plain_style(kSize);
   style.lit = false;
   const ImageRgba8 texture = make_quadrants(64, 32);
   for (const bool flip_v : {false, true}) {
@@ -212,7 +182,7 @@ TEST(MeshRenderer, TextureStandsUpright) {
 }
 
 TEST(MeshRenderer, TextureRepeats) {
-  MeshStyle style = plain_style();
+  MeshStyle style = plain_style(kSize);
   style.lit = false;
   TriMesh square = make_square(2);
   for (glm::vec2& uv : square.texcoords) uv -= glm::vec2(3, 1);  // below 0, too
@@ -229,7 +199,7 @@ TEST(MeshRenderer, TextureRepeats) {
 
 TEST(MeshRenderer, LitTextureIsShaded) {
   const ImageRgba8 texture(4, 4, kGreen);
-  const MeshStyle style = plain_style();
+  const MeshStyle style = plain_style(kSize);
   const ImageRgba8 image = draw(make_square(), front_view(), style, &texture);
   const glm::vec3 base(srgb_decode(10 / 255.f), srgb_decode(180 / 255.f), srgb_decode(30 / 255.f));
   EXPECT_LE(
@@ -238,7 +208,7 @@ TEST(MeshRenderer, LitTextureIsShaded) {
 
 // Thirty texels a pixel: their mean, of light and not of code values.
 TEST(MeshRenderer, FineTexturesAverageInLinearLight) {
-  MeshStyle style = plain_style();
+  MeshStyle style = plain_style(kSize);
   style.lit = false;
   ImageRgba8 texture(256, 256, {0, 0, 0, 255});
   for (int y = 0; y < 256; ++y)
@@ -251,7 +221,7 @@ TEST(MeshRenderer, FineTexturesAverageInLinearLight) {
 }
 
 TEST(MeshRenderer, VertexColoursShowWhereThereIsNoTexture) {
-  MeshStyle style = plain_style();
+  MeshStyle style = plain_style(kSize);
   style.lit = false;
   TriMesh square = make_square();
   square.colors = {{1, 0, 0}, {1, 0, 0}, {0, 0, 1}, {0, 0, 1}};
@@ -266,7 +236,7 @@ TEST(MeshRenderer, VertexColoursShowWhereThereIsNoTexture) {
 }
 
 TEST(MeshRenderer, BacksAreLitAsFrontsThatFaceTheSameWay) {
-  const MeshStyle style = plain_style();
+  const MeshStyle style = plain_style(kSize);
   TriMesh square = make_square();
   const ImageRgba8 front = draw(square, front_view(), style);
   for (Triangle& t : square.triangles) std::swap(t[1], t[2]);
@@ -279,7 +249,7 @@ TEST(MeshRenderer, BacksAreLitAsFrontsThatFaceTheSameWay) {
 
 // The square's own normals lie; two of the three sources do not heed them.
 TEST(MeshRenderer, NormalsComeFromWhereTheyAreAsked) {
-  MeshStyle style = plain_style();
+  MeshStyle style = plain_style(kSize);
   TriMesh square = make_square();
   const glm::vec3 own = glm::normalize(glm::vec3(1, -1, 1));
   square.normals.assign(4, own);
@@ -296,7 +266,7 @@ TEST(MeshRenderer, NormalsComeFromWhereTheyAreAsked) {
 }
 
 TEST(MeshRenderer, FlatAndComputedNormalsDifferOnACoarseSphere) {
-  MeshStyle style = plain_style();
+  MeshStyle style = plain_style(kSize);
   const TriMesh sphere = make_sphere(6);
   style.normals = NormalSource::computed;
   const ImageRgba8 smooth = draw(sphere, front_view(), style);
@@ -308,7 +278,7 @@ TEST(MeshRenderer, FlatAndComputedNormalsDifferOnACoarseSphere) {
 
 // In the row of v = 0.7 that is the square's diagonal, sqrt(2) pixels wide at 45 degrees.
 TEST(MeshRenderer, WireframeIsAPixelWide) {
-  MeshStyle style = plain_style();
+  MeshStyle style = plain_style(kSize);
   style.lit = false;
   style.wireframe = true;
   const Rgba8 plain = encoded(style.base_color), line = encoded(glm::vec3(0.01f));
@@ -328,7 +298,7 @@ TEST(MeshRenderer, WireframeIsAPixelWide) {
 
 TEST(MeshRenderer, UpAxisTurnsTheMesh) {
   const TriMesh torus = make_torus(24, 12);  // around z
-  const MeshStyle style = plain_style();
+  const MeshStyle style = plain_style(kSize);
   const Camera view = make_views(5)[1];
   const ImageRgba8 expected = draw(torus, view, style);
   TriMesh turned = torus;  // so that y is up: (x, y, z) -> (x, z, -y)
@@ -343,7 +313,7 @@ TEST(MeshRenderer, SizeAndPlaceDoNotMatterInTheOwnFrame) {
   const TriMesh torus = make_torus(40, 20);
   TriMesh moved = torus;
   for (glm::vec3& p : moved.positions) p = 7.3f * p + glm::vec3(100, -50, 30);
-  MeshStyle style = plain_style();
+  MeshStyle style = plain_style(kSize);
   style.samples = 2;
   style.size_px = 256;  // rounding may move a sample across an edge: 68 dB each
   for (const Camera& view : make_views(4)) {
@@ -358,7 +328,7 @@ TEST(MeshRenderer, AnothersFrameKeepsAMeshInItsPlace) {
   TriMesh cap = whole;  // the lower half
   std::erase_if(cap.triangles, [&](const Triangle& t) { return whole.positions[t[0]].z > 0.05f; });
   const MeshFrame frame = own_frame(whole);
-  const MeshStyle style = plain_style();
+  const MeshStyle style = plain_style(kSize);
   const ImageRgba8 of_whole = draw(whole, front_view(), style);
   const ImageRgba8 of_cap = draw(cap, front_view(), style, nullptr, &frame);
   EXPECT_EQ(draw(whole, front_view(), style, nullptr, &frame).pixels, of_whole.pixels);
@@ -368,7 +338,7 @@ TEST(MeshRenderer, AnothersFrameKeepsAMeshInItsPlace) {
 }
 
 TEST(MeshRenderer, SameBytesAgainAndStateIsLeft) {
-  const MeshStyle style = plain_style();
+  const MeshStyle style = plain_style(kSize);
   const TriMesh torus = make_torus(24, 12);
   const MeshRenderer renderer(shared_context().gl(), torus, own_frame(torus), nullptr, style);
   const Camera view = make_views(3)[2];
@@ -383,7 +353,7 @@ TEST(MeshRenderer, SameBytesAgainAndStateIsLeft) {
 
 TEST(MeshRenderer, TextureWithoutCoordinatesIsABug) {
   const ImageRgba8 texture(4, 4, kGreen);
-  EXPECT_THROW(draw(make_sphere(6), front_view(), plain_style(), &texture), BugError);
+  EXPECT_THROW(draw(make_sphere(6), front_view(), plain_style(kSize), &texture), BugError);
 }
 
 }  // namespace

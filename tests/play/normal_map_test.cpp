@@ -2,11 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <glm/gtc/constants.hpp>
 
 #include "base/error.h"
 #include "base/random.h"
 #include "base/srgb.h"
+#include "front_square.h"
 #include "gl_fixture.h"
 #include "play/mesh_renderer.h"
 
@@ -15,37 +15,16 @@ namespace {
 
 constexpr int kSize = 128;
 
-MeshStyle plain_style() {
-  MeshStyle style;
-  style.size_px = kSize;
-  style.samples = 1;
-  return style;
-}
-
-Camera front_view() {
-  Camera camera = make_views(1)[0];
-  camera.eye = {0, -glm::length(camera.eye), 0};
-  camera.forward = {0, 1, 0};
-  return camera;
-}
-
-// The square from (-1, -1) to (1, 1) in the plane y = 0, which faces the front: image x is x, image
-// y is -z. Texture coordinates linear * (x, z) + offset.
+// Texture coordinates linear * (x, z) + offset.
 TriMesh make_square(const glm::mat2& linear, const glm::vec2& offset) {
-  TriMesh mesh;
-  mesh.positions = {{-1, 0, -1}, {1, 0, -1}, {1, 0, 1}, {-1, 0, 1}};
-  mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
-  for (const Triangle& t : mesh.triangles)
-    for (const std::uint32_t v : t)
-      mesh.texcoords.push_back(linear * glm::vec2(mesh.positions[v].x, mesh.positions[v].z) +
-                               offset);
-  return mesh;
+  return make_front_square(
+      [&](const glm::vec2& uv) { return linear * (2.0f * uv - 1.0f) + offset; });
 }
 
 const MeshFrame kFrame{{0, 0, 0}, std::sqrt(2.0), "z"};
 
 ImageRgba8 draw(const TriMesh& mesh, const ImageRgba8* normal_map,
-                const MeshStyle& style = plain_style(), const IndexMap* map = nullptr,
+                const MeshStyle& style = plain_style(kSize), const IndexMap* map = nullptr,
                 const ImageRgba8* texture = nullptr) {
   return MeshRenderer(shared_context().gl(), mesh, kFrame, texture, style, map, normal_map)
       .draw(front_view());
@@ -59,7 +38,7 @@ Rgba8 at_xz(const ImageRgba8& image, double x, double z) {
 }
 
 void expect_lit(const Rgba8& seen, const glm::dvec3& normal, const char* what) {
-  const MeshStyle style = plain_style();
+  const MeshStyle style = plain_style(kSize);
   const glm::vec3 c = shade(style.lighting, style.base_color, glm::vec3(glm::normalize(normal)));
   for (int k = 0; k < 3; ++k)
     EXPECT_NEAR(seen[static_cast<std::size_t>(k)], srgb8_from_linear(c[k]), 1) << what << " " << k;
@@ -90,7 +69,7 @@ TEST(NormalMap, IsRelativeToWhereTheTextureRuns) {
     n_mirrored += is_mirrored;
     for (const auto y : {NormalMapY::up, NormalMapY::down})
       for (const bool flip_v : {false, true}) {
-        MeshStyle style = plain_style();
+        MeshStyle style = plain_style(kSize);
         style.normal_map_y = y;
         style.flip_v = flip_v;
         const glm::dvec3 n = decode_normal(kTilted, y);
@@ -110,7 +89,7 @@ TEST(NormalMap, FollowsTheVertexNormals) {
   expect_lit(at_xz(draw(square, &map), 0.3, 0.2),
              n.x * along + n.y * glm::dvec3(0, 0, 1) + n.z * glm::dvec3(square.normals[0]),
              "tilted normals");
-  MeshStyle style = plain_style();
+  MeshStyle style = plain_style(kSize);
   style.normals = NormalSource::flat;
   expect_lit(at_xz(draw(square, &map, style), 0.3, 0.2), {n.x, -n.z, n.y}, "flat normals");
 }
@@ -129,7 +108,7 @@ TEST(NormalMap, IsFilteredAsNumbers) {
   const Rgba8 seen = at_xz(image, 0.3, 0);
   const Rgba8 a = at_xz(image, 0.3, 0.5), b = at_xz(image, 0.3, -0.5);
   EXPECT_LT(std::min(a[0], b[0]), seen[0]);
-  const MeshStyle style = plain_style();
+  const MeshStyle style = plain_style(kSize);
   const glm::vec3 expected =
       shade(style.lighting, style.base_color, glm::vec3(glm::normalize(lit(middle))));
   EXPECT_NEAR(seen[0], srgb8_from_linear(expected.x), 8);  // within half a pixel of the middle
@@ -145,8 +124,8 @@ TEST(NormalMap, IsLookedUpThroughAnIndexingMap) {
   const ImageRgba8 white(2, 2, {255, 255, 255, 255});
   const glm::dvec3 n = decode_normal(kTilted);
   for (const ImageRgba8* texture : {static_cast<const ImageRgba8*>(nullptr), &white}) {
-    const Rgba8 tilted = at_xz(draw(square, &map, plain_style(), &right, texture), -0.5, 0.3);
-    const Rgba8 straight = at_xz(draw(square, &map, plain_style(), &left, texture), 0.5, 0.3);
+    const Rgba8 tilted = at_xz(draw(square, &map, plain_style(kSize), &right, texture), -0.5, 0.3);
+    const Rgba8 straight = at_xz(draw(square, &map, plain_style(kSize), &left, texture), 0.5, 0.3);
     if (!texture) expect_lit(tilted, {n.x, -n.z, n.y}, "the right half, seen on the left");
     if (!texture) expect_lit(straight, {0.004, -1, 0.004}, "the left half, seen on the right");
     EXPECT_GT(std::abs(int{tilted[0]} - int{straight[0]}), 10);
@@ -156,7 +135,7 @@ TEST(NormalMap, IsLookedUpThroughAnIndexingMap) {
 TEST(NormalMap, IsNotSeenUnlitAndWantsCoordinates) {
   TriMesh square = make_square(glm::mat2(0.5f), glm::vec2(0.5f));
   const ImageRgba8 map(4, 4, kTilted);
-  MeshStyle style = plain_style();
+  MeshStyle style = plain_style(kSize);
   style.lit = false;
   EXPECT_EQ(draw(square, &map, style).pixels, draw(square, nullptr, style).pixels);
   square.texcoords.clear();

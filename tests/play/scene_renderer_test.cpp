@@ -4,6 +4,7 @@
 
 #include "base/srgb.h"
 #include "gl_fixture.h"
+#include "image/pixels.h"
 #include "play/floor.h"
 #include "play/raycast.h"
 #include "play/shading.h"
@@ -30,17 +31,6 @@ struct Stage {
   SceneRenderer renderer;
   GlFramebuffer target;
 };
-
-int most_difference(const Rgba8& a, const Rgba8& b) {
-  int most = 0;
-  for (int c = 0; c < 4; ++c) most = std::max(most, std::abs(int{a[c]} - int{b[c]}));
-  return most;
-}
-
-Rgba8 encoded(const glm::vec3& linear, std::uint8_t alpha) {
-  return {srgb8_from_linear(linear.x), srgb8_from_linear(linear.y), srgb8_from_linear(linear.z),
-          alpha};
-}
 
 TEST(Shading, QuickCurveIsWithinItsBound) {
   float worst = 0;
