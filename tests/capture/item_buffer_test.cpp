@@ -3,13 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <filesystem>
 
 #include "capture/shapes.h"
 #include "gl/context.h"
 #include "gl/framebuffer.h"
 #include "gl/objects.h"
-#include "mesh/io.h"
 #include "scene/camera.h"
 #include "visibility/regional.h"
 
@@ -151,14 +149,9 @@ TEST(ItemBuffer, ShowsNoCulledTriangleOfASphere) {
 }
 
 TEST(ItemBuffer, ShowsNoCulledTriangleOfTheBunny) {
-  const std::filesystem::path file =
-      std::filesystem::path(VIEWCELL_SHARED_DATA) / "bunny-69k/bunny70k.ply";
-  if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is not here";
-  TriMesh mesh = read_mesh(file);
-  const Box box = bounding_box(mesh);
-  for (glm::vec3& p : mesh.positions)
-    p = glm::vec3((glm::dvec3(p) - box.centre()) * (43.6 / box.size().x));
-  const CullingSum sum = compare(mesh, 60, 3, 75, 300);
+  const std::optional<TriMesh> bunny = read_bunny(43.6);
+  if (!bunny) GTEST_SKIP() << "the bunny is not here";
+  const CullingSum sum = compare(*bunny, 60, 3, 75, 300);
   report("bunny", sum);
   EXPECT_EQ(sum.n_culled_and_seen, 0u);
   EXPECT_GT(sum.culled_share, 0.40);

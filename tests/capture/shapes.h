@@ -2,13 +2,16 @@
 #pragma once
 
 #include <cmath>
+#include <filesystem>
 #include <functional>
 #include <glm/gtc/constants.hpp>
+#include <optional>
 #include <string>
 #include <utility>
 
 #include "base/random.h"
 #include "capture/view.h"
+#include "mesh/io.h"
 #include "scene/scene.h"
 
 namespace viewcell {
@@ -98,6 +101,18 @@ inline TriMesh make_box(const glm::dvec3& lo, const glm::dvec3& hi) {
       mesh.triangles.push_back({first, first + b, first + 2});
       mesh.triangles.push_back({first, first + 2, first + d});
     }
+  return mesh;
+}
+
+/// The bunny of the shared models, about its centre and of that width; nothing where it is not
+/// here.
+inline std::optional<TriMesh> read_bunny(double width) {
+  const auto file = std::filesystem::path(VIEWCELL_SHARED_DATA) / "bunny-69k/bunny70k.ply";
+  if (!std::filesystem::exists(file)) return std::nullopt;
+  TriMesh mesh = read_mesh(file);
+  const Box box = bounding_box(mesh);
+  for (glm::vec3& p : mesh.positions)
+    p = glm::vec3((glm::dvec3(p) - box.centre()) * (width / box.size().x));
   return mesh;
 }
 

@@ -2,9 +2,9 @@
 #pragma once
 
 #include <cmath>
-#include <glm/gtc/constants.hpp>
 
 #include "base/random.h"
+#include "capture/shapes.h"
 #include "scene/camera.h"
 #include "scene/scene.h"
 
@@ -12,25 +12,11 @@ namespace viewcell {
 
 // A closed torus around z, wavy so that shading varies; triangles face outward.
 inline TriMesh make_torus(int n_around, int n_tube, double radius = 3, double tube = 1) {
-  TriMesh mesh;
-  for (int i = 0; i < n_around; ++i)
-    for (int j = 0; j < n_tube; ++j) {
-      const double a = glm::two_pi<double>() * i / n_around;
-      const double b = glm::two_pi<double>() * j / n_tube;
-      const double r = tube * (1 + 0.1 * std::sin(7 * a) * std::cos(3 * b));
-      mesh.positions.emplace_back((radius + r * std::cos(b)) * std::cos(a),
-                                  (radius + r * std::cos(b)) * std::sin(a), r * std::sin(b));
-    }
-  const auto at = [&](int i, int j) {
-    return static_cast<std::uint32_t>((i % n_around) * n_tube + j % n_tube);
-  };
-  for (int i = 0; i < n_around; ++i)
-    for (int j = 0; j < n_tube; ++j) {
-      mesh.triangles.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
-      mesh.triangles.push_back({at(i, j), at(i + 1, j + 1), at(i, j + 1)});
-    }
-  mesh.normals = make_vertex_normals(mesh);
-  return mesh;
+  return make_wrapped(n_around, n_tube, [&](double a, double b) {
+    const double r = tube * (1 + 0.1 * std::sin(7 * a) * std::cos(3 * b));
+    return glm::dvec3((radius + r * std::cos(b)) * std::cos(a),
+                      (radius + r * std::cos(b)) * std::sin(a), r * std::sin(b));
+  });
 }
 
 // An open square of two triangles in the plane x = 0, facing -x.
@@ -49,11 +35,6 @@ inline SceneMesh make_scene_mesh(const char* name, TriMesh mesh) {
   out.n_triangles = mesh.triangles.size();
   out.mesh = std::move(mesh);
   return out;
-}
-
-inline glm::dquat random_rotation(Random& random) {
-  return glm::normalize(glm::dquat(random.uniform(-1, 1), random.uniform(-1, 1),
-                                   random.uniform(-1, 1), random.uniform(-1, 1) + 1e-3));
 }
 
 // n_objects tori of two materials, turned at random, strewn over 200 x 200; the mesh has
