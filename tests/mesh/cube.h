@@ -5,6 +5,7 @@
 #include <cstring>
 #include <glm/glm.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "mesh/mesh.h"
@@ -30,6 +31,16 @@ inline std::vector<Triangle> cube_triangles() {
     out.push_back({v(0), v(2), v(3)});
   }
   return out;
+}
+
+inline TriMesh make_mesh(std::vector<glm::vec3> positions, std::vector<Triangle> triangles) {
+  TriMesh mesh;
+  mesh.positions = std::move(positions);
+  mesh.triangles = std::move(triangles);
+  return mesh;
+}
+inline TriMesh make_cube() {
+  return make_mesh(cube_positions(), cube_triangles());
 }
 
 inline std::string number_text(float x) {

@@ -10,12 +10,6 @@
 namespace viewcell {
 namespace {
 
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  const std::size_t at = text.find(from);
-  EXPECT_NE(at, std::string::npos) << from;
-  return text.replace(at, from.size(), to);
-}
-
 TriMesh parse(const std::string& json) {
   return parse_gltf(make_glb(json, cube_buffer()), "m.glb");
 }

@@ -17,12 +17,6 @@
 namespace viewcell {
 namespace {
 
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  const std::size_t at = text.find(from);
-  EXPECT_NE(at, std::string::npos) << from;
-  return text.replace(at, from.size(), to);
-}
-
 std::string gzipped(const std::string& bytes) {
   z_stream stream{};
   deflateInit2(&stream, 9, Z_DEFLATED, 16 + MAX_WBITS, 9, Z_DEFAULT_STRATEGY);
@@ -53,13 +47,6 @@ std::vector<std::array<std::array<float, 3>, 3>> shape_of(const TriMesh& mesh) {
   return out;
 }
 
-TriMesh cube() {
-  TriMesh mesh;
-  mesh.positions = cube_positions();
-  mesh.triangles = cube_triangles();
-  return mesh;
-}
-
 struct Sample {
   const char* name;
   std::string bytes;
@@ -78,7 +65,7 @@ TEST(ReadMesh, TheSameCubeInEveryFormat) {
     SCOPED_TRACE(sample.name);
     const TriMesh mesh = read_mesh(folder.add(sample.name, sample.bytes));
     EXPECT_EQ(mesh.positions.size(), 8u);
-    EXPECT_EQ(shape_of(mesh), shape_of(cube()));
+    EXPECT_EQ(shape_of(mesh), shape_of(make_cube()));
     EXPECT_TRUE(mesh.normals.empty());
   }
   const TriMesh packed = read_mesh(folder.add("c.ply.gz", gzipped(cube_ply())));
@@ -221,7 +208,7 @@ TEST(PlyMesh, BadFacesAndStrips) {
 
 TEST(WritePly, ReadsBackTheSame) {
   const TemporaryFolder folder;
-  TriMesh mesh = cube();
+  TriMesh mesh = make_cube();
   mesh.normals = make_vertex_normals(mesh);
   for (int v = 0; v < 8; ++v) mesh.colors.emplace_back(srgb_decode(static_cast<float>(v) / 255.0f));
   write_ply(folder.path() / "out.ply", mesh, {"made by a test"});

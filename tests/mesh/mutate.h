@@ -1,5 +1,8 @@
-// Damaged copies of a file: whatever a reader makes of them, it must not crash.
+// Changed copies of a file, on purpose or damaged: whatever a reader makes of them, it must not
+// crash.
 #pragma once
+
+#include <gtest/gtest.h>
 
 #include <string>
 
@@ -7,6 +10,13 @@
 #include "base/random.h"
 
 namespace viewcell {
+
+/// With `to` for the first `from`, which must be there.
+inline std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  const std::size_t at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  return at == std::string::npos ? text : text.replace(at, from.size(), to);
+}
 
 /// One to four bytes changed, or a stretch taken out, doubled or cut off.
 inline std::string mutate(std::string bytes, Random& random) {

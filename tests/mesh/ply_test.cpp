@@ -20,12 +20,6 @@ const std::string kSquare =  // 0-1-2 and 0-2-3
     "property list uchar uint vertex_indices\nproperty int object\nend_header\n"
     "0 0 0 1\n1 0 0 2\n1 1 0 3\n0 1 0 127\n3 0 1 2 -5\n3 0 2 3 6\n";
 
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  const std::size_t at = text.find(from);
-  EXPECT_NE(at, std::string::npos) << from;
-  return text.replace(at, from.size(), to);
-}
-
 PlyDocument parse(const std::string& bytes) {
   return parse_ply(bytes, "m.ply");
 }

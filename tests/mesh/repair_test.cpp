@@ -10,15 +10,8 @@
 namespace viewcell {
 namespace {
 
-TriMesh make_mesh(std::vector<glm::vec3> positions, std::vector<Triangle> triangles) {
-  TriMesh mesh;
-  mesh.positions = std::move(positions);
-  mesh.triangles = std::move(triangles);
-  return mesh;
-}
-
 TEST(Topology, ClosedCube) {
-  const MeshTopology t = measure_topology(make_mesh(cube_positions(), cube_triangles()));
+  const MeshTopology t = measure_topology(make_cube());
   EXPECT_TRUE(t.is_closed_manifold());
   EXPECT_EQ(t.n_edges, 18u);
   EXPECT_EQ(t.n_components, 1u);

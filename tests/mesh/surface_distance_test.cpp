@@ -20,16 +20,9 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 
-TriMesh make_mesh(std::vector<glm::vec3> positions, std::vector<Triangle> triangles) {
-  TriMesh mesh;
-  mesh.positions = std::move(positions);
-  mesh.triangles = std::move(triangles);
-  return mesh;
-}
-
 // Corners lo and hi.
 TriMesh make_box(glm::vec3 lo, glm::vec3 hi) {
-  TriMesh mesh = make_mesh(cube_positions(), cube_triangles());
+  TriMesh mesh = make_cube();
   for (glm::vec3& p : mesh.positions) p = lo + p * (hi - lo);
   return mesh;
 }

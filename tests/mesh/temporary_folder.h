@@ -1,3 +1,4 @@
+// A folder of a test's own, removed with it.
 #pragma once
 
 #include <unistd.h>
@@ -9,7 +10,6 @@
 
 namespace viewcell {
 
-/// A folder that is removed at the end.
 class TemporaryFolder {
  public:
   TemporaryFolder() {
@@ -24,6 +24,7 @@ class TemporaryFolder {
   TemporaryFolder& operator=(const TemporaryFolder&) = delete;
 
   const std::filesystem::path& path() const { return path_; }
+  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
   /// Writes the bytes to a file of the folder.
   std::filesystem::path add(const std::string& name, std::string_view bytes) const {
     write_file(path_ / name, bytes);

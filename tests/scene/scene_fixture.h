@@ -11,13 +11,6 @@
 
 namespace viewcell {
 
-inline TriMesh make_cube() {
-  TriMesh cube;
-  cube.positions = cube_positions();
-  cube.triangles = cube_triangles();
-  return cube;
-}
-
 /// A cube and an OFF cube twice: three objects of two meshes and two materials.
 inline Scene make_small_scene() {
   Scene scene;
