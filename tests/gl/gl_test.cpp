@@ -66,6 +66,19 @@ std::array<float, 3> at_pixel(float x, float y, float depth) {
   return {x / 8 - 1, 1 - y / 8, depth};
 }
 
+// One triangle over the whole frame.
+void draw_everywhere(const GlProgram& program) {
+  const GlBuffer corners = make_buffer(
+      gl(), std::vector{at_pixel(0, 0, 0.5f), at_pixel(0, 32, 0.5f), at_pixel(32, 0, 0.5f)});
+  GlVertexArray array(gl());
+  gl().VertexArrayVertexBuffer(array.id(), 0, corners.id(), 0, 12);
+  gl().EnableVertexArrayAttrib(array.id(), 0);
+  gl().VertexArrayAttribFormat(array.id(), 0, 3, GL_FLOAT, GL_FALSE, 0);
+  program.use();
+  array.bind();
+  gl().DrawArrays(GL_TRIANGLES, 0, 3);
+}
+
 TEST(GlContext, NamesItsEngines) {
   EXPECT_EQ(parse_gl_engine("osmesa"), GlEngine::kOsmesa);
   EXPECT_EQ(parse_gl_engine("egl"), GlEngine::kEgl);
@@ -151,17 +164,9 @@ layout(location = 0) out vec4 color;
 layout(location = 1) out uint id;
 void main() { color = vec4(-3.5, 1e6, gl_FragCoord.xy); id = 4000000000u; }
 )");
-  const GlBuffer corners = make_buffer(
-      gl(), std::vector{at_pixel(0, 0, 0.5f), at_pixel(0, 32, 0.5f), at_pixel(32, 0, 0.5f)});
-  GlVertexArray array(gl());
-  gl().VertexArrayVertexBuffer(array.id(), 0, corners.id(), 0, 12);
-  gl().EnableVertexArrayAttrib(array.id(), 0);
-  gl().VertexArrayAttribFormat(array.id(), 0, 3, GL_FLOAT, GL_FALSE, 0);
   target.bind();
   target.clear({0, 0, 0, 0});
-  program.use();
-  array.bind();
-  gl().DrawArrays(GL_TRIANGLES, 0, 3);
+  draw_everywhere(program);
   EXPECT_EQ(target.read_uint(1).at(3, 4), 4000000000u);
   EXPECT_EQ(target.read_rgba_float(0).at(3, 4), (RgbaFloat{-3.5f, 1e6f, 3.5f, 11.5f}));
 }
@@ -225,19 +230,11 @@ layout(binding = 0) uniform sampler2DArray layers;
 layout(location = 0) out vec4 result;
 void main() { result = texture(layers, vec3(0.5, 0.5, 2)); }
 )");
-  const GlBuffer corners = make_buffer(
-      gl(), std::vector{at_pixel(0, 0, 0.5f), at_pixel(0, 32, 0.5f), at_pixel(32, 0, 0.5f)});
-  GlVertexArray array(gl());
-  gl().VertexArrayVertexBuffer(array.id(), 0, corners.id(), 0, 12);
-  gl().EnableVertexArrayAttrib(array.id(), 0);
-  gl().VertexArrayAttribFormat(array.id(), 0, 3, GL_FLOAT, GL_FALSE, 0);
   const GlFramebuffer target(gl(), 16, 16);
   target.bind();
   target.clear({0, 0, 0, 0});
   gl().BindTextureUnit(0, texture.id());
-  program.use();
-  array.bind();
-  gl().DrawArrays(GL_TRIANGLES, 0, 3);
+  draw_everywhere(program);
   for (const Rgba8& pixel : target.read_rgba8().pixels) EXPECT_EQ(pixel, kGreen8);
 }
 

@@ -218,17 +218,30 @@ TEST(ImageRead, LimitsAreWhatTheHeaderSays) {
   EXPECT_THROW(check_image_size(1, -3, "f"), InputError);
 }
 
+// Pictures of 37 x 29 in every format.
+constexpr const char* kNames[] = {"a.png", "a.jpg", "a.tif", "a.webp", "a.exr"};
+
+std::vector<std::uint8_t> random_rgb(Random& random) {
+  std::vector<std::uint8_t> rgb;
+  for (const Rgba8& p : random_image(37, 29, random).pixels)
+    rgb.insert(rgb.end(), p.begin(), p.begin() + 3);
+  return rgb;
+}
+
+// Returns the file's bytes.
+std::string write_rgb(const fs::path& file, const std::vector<std::uint8_t>& rgb) {
+  write_samples(file, 37, 29, 3, file.extension() == ".exr" ? OIIO::TypeHalf : OIIO::TypeUInt8,
+                rgb);
+  return read_file(file);
+}
+
 // Cut anywhere, a picture is refused, or (cut in what follows its pixels) reads as before.
 TEST(ImageRead, TruncatedFilesNeverReadAsSomethingElse) {
   const TemporaryFolder folder;
   Random random(11);
-  const ImageRgba8 image = random_image(37, 29, random);
-  std::vector<std::uint8_t> rgb;
-  for (const Rgba8& p : image.pixels) rgb.insert(rgb.end(), p.begin(), p.begin() + 3);
-  for (const char* name : {"a.png", "a.jpg", "a.tif", "a.webp", "a.exr"}) {
-    write_samples(folder / name, 37, 29, 3,
-                  std::string(name) == "a.exr" ? OIIO::TypeHalf : OIIO::TypeUInt8, rgb);
-    const std::string bytes = read_file(folder / name);
+  const std::vector<std::uint8_t> rgb = random_rgb(random);
+  for (const char* name : kNames) {
+    const std::string bytes = write_rgb(folder / name, rgb);
     const ImageRgba8 whole = read_image_rgba8(folder / name);
     int n_refused = 0;
     for (int i = 0; i < 50; ++i) {
@@ -249,13 +262,9 @@ TEST(ImageRead, TruncatedFilesNeverReadAsSomethingElse) {
 TEST(ImageRead, CorruptFilesReadOrAreRefused) {
   const TemporaryFolder folder;
   Random random(12);
-  const ImageRgba8 image = random_image(37, 29, random);
-  std::vector<std::uint8_t> rgb;
-  for (const Rgba8& p : image.pixels) rgb.insert(rgb.end(), p.begin(), p.begin() + 3);
-  for (const char* name : {"a.png", "a.jpg", "a.tif", "a.webp", "a.exr"}) {
-    write_samples(folder / name, 37, 29, 3,
-                  std::string(name) == "a.exr" ? OIIO::TypeHalf : OIIO::TypeUInt8, rgb);
-    const std::string bytes = read_file(folder / name);
+  const std::vector<std::uint8_t> rgb = random_rgb(random);
+  for (const char* name : kNames) {
+    const std::string bytes = write_rgb(folder / name, rgb);
     for (int i = 0; i < 100; ++i) {
       SCOPED_TRACE(std::string(name) + " case " + std::to_string(i));
       std::string bad = bytes;
