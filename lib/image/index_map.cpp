@@ -36,7 +36,7 @@ ImageFormat format_by_ending(const fs::path& file) {
   throw UsageError(file.string() + ": an indexing map is written as .exr or .tif");
 }
 
-OIIO::ImageSpec make_spec(const IndexMap& map, OIIO::TypeDesc type) {
+OIIO::ImageSpec make_spec(const IndexMap& map, OIIO::TypeDesc type, const std::string& label) {
   OIIO::ImageSpec spec(map.width_px, map.height_px, 2, type);
   spec.channelnames = {kNameOfU, kNameOfV};
   spec.attribute("compression", "zip");
@@ -44,6 +44,7 @@ OIIO::ImageSpec make_spec(const IndexMap& map, OIIO::TypeDesc type) {
   // Without a DateTime the writers add today's; one of the wrong type keeps them from doing so and
   // is itself not written.
   spec.attribute("DateTime", 0);
+  if (!label.empty()) spec.attribute("ImageDescription", label);
   return spec;
 }
 
@@ -64,11 +65,11 @@ std::uint16_t code_of(float coordinate) {
   return static_cast<std::uint16_t>(std::lround(65535 * std::clamp(double(coordinate), 0.0, 1.0)));
 }
 
-std::string encode_tiff(const IndexMap& map) {
+std::string encode_tiff(const IndexMap& map, const std::string& label) {
   std::vector<std::uint16_t> codes;
   codes.reserve(2 * map.pixels.size());
   for (const glm::vec2& uv : map.pixels) codes.insert(codes.end(), {code_of(uv.x), code_of(uv.y)});
-  return encode(make_spec(map, OIIO::TypeUInt16), ImageFormat::tiff, codes.data());
+  return encode(make_spec(map, OIIO::TypeUInt16, label), ImageFormat::tiff, codes.data());
 }
 
 // --- reading ---
@@ -124,22 +125,23 @@ void check_finite(const IndexMap& map, const std::string& file) {
 
 }  // namespace
 
-void write_index_map(const fs::path& file, const IndexMap& map) {
+void write_index_map(const fs::path& file, const IndexMap& map, const std::string& label) {
   VIEWCELL_CHECK(!map.empty());
   for (const glm::vec2& uv : map.pixels)
     VIEWCELL_CHECK(std::isfinite(uv.x) && std::isfinite(uv.y), uv.x, uv.y);
-  if (format_by_ending(file) == ImageFormat::tiff) return write_file(file, encode_tiff(map));
-  write_file(file,
-             encode(make_spec(map, OIIO::TypeFloat), ImageFormat::openexr, map.pixels.data()));
+  if (format_by_ending(file) == ImageFormat::tiff) return write_file(file, encode_tiff(map, label));
+  write_file(file, encode(make_spec(map, OIIO::TypeFloat, label), ImageFormat::openexr,
+                          map.pixels.data()));
 }
 
-IndexMap read_index_map(const fs::path& path, std::string* hash) {
+IndexMap read_index_map(const fs::path& path, std::string* hash, std::string* label) {
   const std::string file = path.string();
   const std::string bytes = read_file(path, kMaxImageFileBytes);
   MemoryInput picture = open_memory(bytes, file);
   check_map_spec(picture, file);
   check_inflation(picture.spec, bytes.size(), file);
   if (hash != nullptr) *hash = hash_hex(bytes);
+  if (label != nullptr) *label = picture.spec.get_string_attribute("ImageDescription");
   if (picture.format == ImageFormat::tiff)  // 8 bits come out as 257 times their code
     return gather<std::uint16_t>(picture, file,
                                  [](std::uint16_t x) { return static_cast<float>(x / 65535.0); });

@@ -24,13 +24,17 @@ inline glm::vec2 own_place(int x, int y, int width_px, int height_px) {
 ///   for bit, with coordinates outside [0, 1] too;
 /// - .tif, .tiff: two channels of 16 bits, round(65535 * coordinate), clamped to [0, 1]; zip.
 /// The same map gives the same bytes: no date. Every number must be finite, the map not empty.
+/// label: a line about what the map is of, kept as the picture's description.
 /// Throws UsageError for another ending, MachineError when it cannot be written.
-void write_index_map(const std::filesystem::path& file, const IndexMap& map);
+void write_index_map(const std::filesystem::path& file, const IndexMap& map,
+                     const std::string& label = "");
 
 /// Reads both back ("-": standard input), told by their first bytes, and a two-channel TIFF of 8
-/// bits. An EXR gives its data window. hash: hash_hex of the file's bytes, if wanted.
+/// bits. An EXR gives its data window. hash: hash_hex of the file's bytes; label: "" where there is
+/// none; if wanted.
 /// Size, channels and their types are checked before pixels are read. Throws InputError for all
 /// else, and for numbers that are not finite.
-IndexMap read_index_map(const std::filesystem::path& file, std::string* hash = nullptr);
+IndexMap read_index_map(const std::filesystem::path& file, std::string* hash = nullptr,
+                        std::string* label = nullptr);
 
 }  // namespace viewcell

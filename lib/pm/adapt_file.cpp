@@ -14,24 +14,6 @@ constexpr std::uint32_t kKind = 5;
 constexpr const char* kFormat = "viewcell-adapt";
 constexpr int kVersion = 1;
 
-// Of all that the cells depend on.
-std::string hash_of(const ProgressiveRecord& record) {
-  std::string hashes;
-  const auto add = [&](const auto& values) {
-    hashes += hash_hex(
-        {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(*values.data())});
-  };
-  add(record.attributes.positions), add(record.vertex_of), add(record.extra_sources);
-  add(record.texcoords), add(record.faces), add(record.born), add(record.moved);
-  add(record.moved_by), add(record.pairs), add(record.parent_positions);
-  add(record.parent_texcoords);
-  std::vector<std::uint32_t> splits;
-  for (const VertexSplit& s : record.splits)
-    splits.insert(splits.end(), {s.child, s.parent, s.n_born, s.n_moved, s.n_pairs});
-  add(splits);
-  return hash_hex(hashes);
-}
-
 // Steps lie one after another, from 0 to n.
 bool is_partition(const std::vector<std::uint32_t>& first, std::size_t n_steps, std::size_t n) {
   return first.size() == n_steps + 1 && first.front() == 0 && first.back() == n &&
@@ -62,12 +44,29 @@ std::string find_fault(const AdaptationLog& log, const ProgressiveRecord& record
 
 }  // namespace
 
+std::string adaptation_hash(const ProgressiveRecord& record) {
+  std::string hashes;
+  const auto add = [&](const auto& values) {
+    hashes += hash_hex(
+        {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(*values.data())});
+  };
+  add(record.attributes.positions), add(record.vertex_of), add(record.extra_sources);
+  add(record.texcoords), add(record.faces), add(record.born), add(record.moved);
+  add(record.moved_by), add(record.pairs), add(record.parent_positions);
+  add(record.parent_texcoords);
+  std::vector<std::uint32_t> splits;
+  for (const VertexSplit& s : record.splits)
+    splits.insert(splits.end(), {s.child, s.parent, s.n_born, s.n_moved, s.n_pairs});
+  add(splits);
+  return hash_hex(hashes);
+}
+
 void write_adapt(const std::filesystem::path& file, const AdaptationLog& log,
                  const ProgressiveRecord& record) {
   SectionWriter writer(kKind);
   const Json info{{"format", kFormat},
                   {"version", kVersion},
-                  {"mesh_hash", hash_of(record)},
+                  {"mesh_hash", adaptation_hash(record)},
                   {"steps_per_collapse", log.steps_per_collapse},
                   {"charts", log.n_charts},
                   {"folded", log.n_folded},
@@ -86,7 +85,7 @@ AdaptationLog read_adapt(const std::filesystem::path& file, const ProgressiveRec
   const SectionReader reader(file, kKind, "a log of adaptations (.adapt)");
   const Json json = reader.read_info(kFormat, kVersion);
   const JsonCursor info(json, file);
-  if (info.at("mesh_hash").string() != hash_of(record))
+  if (info.at("mesh_hash").string() != adaptation_hash(record))
     throw InputError(file, "", "is the log of another progressive mesh");
   AdaptationLog log;
   constexpr std::int64_t kMost = std::int64_t{1} << 40;

@@ -2,10 +2,14 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "pm/adaptation.h"
 
 namespace viewcell {
+
+/// hash_hex of all of a progressive mesh that its adaptations depend on; the same at every level.
+std::string adaptation_hash(const ProgressiveRecord& record);
 
 /// Whole or not at all. record: the progressive mesh that the log is of.
 void write_adapt(const std::filesystem::path& file, const AdaptationLog& log,

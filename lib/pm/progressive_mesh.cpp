@@ -7,6 +7,11 @@
 
 namespace viewcell {
 
+void shift_texcoords(ProgressiveRecord& record, const glm::vec2& by) {
+  for (glm::vec2& uv : record.texcoords) uv += by;
+  for (glm::vec2& uv : record.parent_texcoords) uv += by;
+}
+
 ProgressiveMesh::ProgressiveMesh(ProgressiveRecord record)
     : record_(std::move(record)), is_alive_(record_.faces.size(), true) {
   for (const std::uint32_t face : record_.born) is_alive_[face] = false;

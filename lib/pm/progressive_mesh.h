@@ -52,6 +52,9 @@ struct ProgressiveRecord {
   bool is_full_edge() const { return !parent_positions.empty(); }
 };
 
+/// Adds to all texture coordinates.
+void shift_texcoords(ProgressiveRecord& record, const glm::vec2& by);
+
 /// A progressive mesh at some level; refining and coarsening take time in proportion to the faces
 /// that come and go.
 class ProgressiveMesh {

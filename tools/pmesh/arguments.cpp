@@ -66,6 +66,8 @@ void declare_build(CLI::App& app, PmeshArguments& a) {
                   "for texadapt: texels a side of the texture on which no chart may grow over "
                   "another as borders are simplified; 0: do not look")
       ->check(whole_within(0, 32768));
+  build.add_flag("--flip-v", a.flip_v,
+                 "turn v upside down, for files in which it runs against their pictures");
   build.add_flag("--no-texture", a.no_texture,
                  "leave texture coordinates out: charts then hold nothing back");
   build.add_flag("--exact", a.exact, "look at every changed cost at once, not when it comes up");

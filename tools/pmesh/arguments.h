@@ -12,7 +12,7 @@ namespace viewcell {
 struct PmeshArguments {
   std::string model, metric = "qem3", placement, error = "total", measure = "max", pm;
   std::optional<std::string> stop_at;
-  bool unweighted = false, mean = false, exact = false, no_texture = false;
+  bool unweighted = false, mean = false, exact = false, no_texture = false, flip_v = false;
   std::optional<std::size_t> n_faces;  ///< of extract
   std::optional<double> within;        ///< of extract: mesh units
   bool stops_at_faces = false;         ///< after finish_build

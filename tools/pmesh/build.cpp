@@ -69,6 +69,8 @@ int build(Tool& tool, PmeshArguments& a) {
   std::string hash;
   TriMesh mesh = read_mesh(a.model, &hash);
   if (a.no_texture) mesh.texcoords.clear();
+  if (a.flip_v)
+    for (glm::vec2& uv : mesh.texcoords) uv.y = 1 - uv.y;
   const double read_s = watch.lap_s();
   BuildResult result = build_progressive_mesh(mesh, options, tool.progress("percent"));
   const double build_s = watch.lap_s();
@@ -76,6 +78,7 @@ int build(Tool& tool, PmeshArguments& a) {
   const std::size_t n_base = n_faces - result.record.born.size();
   Json said = format_options(options);
   if (a.no_texture) said["texture"] = false;
+  if (a.flip_v) said["flip_v"] = true;
   result.record.made_by = make_provenance(tool, said, {{"model", hash}}).dump();
   write_pm(tool.common().output, result.record);
   const CollapseCounts& counts = result.counts;

@@ -49,9 +49,13 @@ AdaptCounts counts_since(const AdaptCounts& before, const AdaptCounts& now) {
 }
 
 Json format_row(const AdaptLevels& levels, const AdaptCounts& counts, double level_s) {
-  return {{"faces", levels.mesh().n_faces()},    {"collapses", levels.n_collapsed()},
-          {"adaptations", counts.n_adaptations}, {"packs", counts.n_packs},
-          {"texels", counts.n_texels},           {"adapt_s", level_s}};
+  return {{"faces", levels.mesh().n_faces()},
+          {"collapses", levels.n_collapsed()},
+          {"adaptations", counts.n_adaptations},
+          {"packs", counts.n_packs},
+          {"texels", counts.n_texels},
+          {"overgrown_texels", counts.n_conflicts},
+          {"adapt_s", level_s}};
 }
 
 void say_level(const Tool& tool, const AdaptLevels& levels, const AdaptCounts& counts) {
@@ -63,7 +67,16 @@ void say_level(const Tool& tool, const AdaptLevels& levels, const AdaptCounts& c
 void say_folds(const Tool& tool, const AdaptationLog& log) {
   if (log.n_folded + log.n_unmapped > 0)
     tool.say(std::to_string(log.n_folded + log.n_unmapped) + " of " +
-             std::to_string(log.n_steps()) + " steps turn over in the texture and adapt nothing");
+             std::to_string(log.n_steps()) +
+             " steps turn over in the texture and adapt nothing (pmesh build --no-folds refuses "
+             "most of them)");
+}
+
+void say_overgrown(const Tool& tool, const AdaptCounts& counts) {
+  if (counts.n_conflicts > 0)
+    tool.say(std::to_string(counts.n_conflicts) +
+             " times a chart wanted a texel that another has, or another part of its own, and did "
+             "not get it (pmesh build --charts-apart refuses most of that)");
 }
 
 struct Times {
@@ -114,6 +127,7 @@ Json adapt_levels(const Tool& tool, const TexadaptArguments& a, const TexadaptIn
     say_level(tool, levels, counts);
   }
   say_folds(tool, log);
+  say_overgrown(tool, levels.counts());
   return format_report(rows, levels.counts(), log, times);
 }
 

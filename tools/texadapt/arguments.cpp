@@ -138,7 +138,11 @@ void choose_format(const std::string& output, TexadaptArguments& a) {
     a.format = TextureFormat::glb;
   else if (a.format_name.empty() && is_map && !a.bake)
     a.format = TextureFormat::map;
-  if (a.format == TextureFormat::png) check_ending({"-o", output}, {".png"}, "a PNG");
+  if (a.format == TextureFormat::png && (a.bake || !a.format_name.empty()))
+    check_ending({"-o", output}, {".png"}, "a PNG");
+  if (a.format == TextureFormat::png)
+    check_ending({"-o", output}, {".png", ".glb", ".exr", ".tif", ".tiff"},
+                 "a texture, a GLB or an indexing map");
   if (a.format == TextureFormat::glb) check_ending({"-o", output}, {".glb"}, "a GLB");
 }
 

@@ -6,6 +6,7 @@
 #include "mesh/texture_file.h"
 #include "pm/adapt_file.h"
 #include "pm/pm_file.h"
+#include "texadapt/level_writer.h"
 
 namespace viewcell {
 namespace {
@@ -22,6 +23,31 @@ TriMesh extract_finest(const ProgressiveRecord& record) {
   return mesh.extract();
 }
 
+// A map that says what it is of must be of this level.
+void check_start(const TexadaptArguments& a, const TexadaptInputs& in, const std::string& label) {
+  if (!label.starts_with(kLabelStart)) return;
+  ProgressiveMesh mesh(in.record);
+  mesh.set_faces(a.options.start_faces);
+  if (label == map_label(in.hash, mesh.n_faces())) return;
+  const bool same_mesh = label.starts_with(kLabelStart + in.hash);
+  throw InputError(a.start, "",
+                   same_mesh ? "is the map of another level than --from " +
+                                   std::to_string(a.options.start_faces) + ": " + label
+                             : "is the map of another progressive mesh");
+}
+
+// Where all of the mesh lies in one tile of a repeating picture it is moved into the first.
+void leave_tile(TexadaptInputs& in, ChartFindings& findings, const TexadaptArguments& a) {
+  const glm::ivec2 tile = findings.tile;
+  if (tile == glm::ivec2(0)) return;
+  shift_texcoords(in.record, -glm::vec2(tile));
+  in.finest = extract_finest(in.record);
+  findings = check_charts(in.finest, a.options.width_px, a.options.height_px);
+  in.charts =
+      "the mesh lies in another tile of a picture that repeats: " + std::to_string(-tile.x) +
+      " is added to u and " + std::to_string(-tile.y) + " to v\n";
+}
+
 }  // namespace
 
 TexadaptInputs read_inputs(TexadaptArguments& a) {
@@ -32,13 +58,20 @@ TexadaptInputs read_inputs(TexadaptArguments& a) {
   in.texture = read_texture(a.texture);
   for (const FurtherTexture& f : a.further) in.further.push_back(read_texture(f.from));
   if (!a.normal_map.from.empty()) in.normal_map = read_texture(a.normal_map.from);
-  if (!a.start.empty()) a.options.start = read_index_map(a.start);
+  std::string label;
+  if (!a.start.empty()) a.options.start = read_index_map(a.start, nullptr, &label);
   settle_size(a.options, in.texture);
   in.finest = extract_finest(in.record);
-  const ChartFindings findings = check_charts(in.finest, a.options.width_px, a.options.height_px);
+  ChartFindings findings = check_charts(in.finest, a.options.width_px, a.options.height_px);
+  leave_tile(in, findings, a);
+  in.hash = adaptation_hash(in.record);
+  check_start(a, in, label);
   if (const std::string obstacle = find_obstacle(findings, a.allows_overlap); !obstacle.empty())
-    throw InputError(a.pm, "", obstacle);
-  in.charts = describe(findings);
+    throw InputError(a.pm, "",
+                     obstacle + (findings.overlaps.empty() || a.allows_overlap
+                                     ? ""
+                                     : " (--allow-overlap goes on all the same)"));
+  in.charts += describe(findings);
   return in;
 }
 

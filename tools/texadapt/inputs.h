@@ -18,6 +18,7 @@ struct TexadaptInputs {
   ImageRgba8 normal_map;            ///< empty: none was given
   std::vector<ImageRgba8> further;  ///< as in the arguments
   std::string charts;               ///< lines about them
+  std::string hash;                 ///< adaptation_hash() of the record
 };
 
 /// Reads all but the log, and sets the arguments' start and the size of the map, where it is not

@@ -8,6 +8,10 @@
 
 namespace viewcell {
 
+/// What an indexing map is of, as written into its file: the hash of a progressive mesh, a level.
+inline constexpr const char* kLabelStart = "indexing map of mesh ";
+std::string map_label(const std::string& hash, std::size_t n_faces);
+
 /// Keeps what it is made of by reference.
 class LevelWriter {
  public:
@@ -26,6 +30,7 @@ class LevelWriter {
   void write_output(std::size_t level, const TriMesh& mesh, const IndexMap* map,
                     const ImageRgba8* normal_map, const Bake& bake) const;
   void write_mesh(std::size_t level, const TriMesh& mesh) const;
+  std::vector<std::string> comments_of(const std::string& file, std::size_t level) const;
 
   const Tool& tool_;
   const TexadaptArguments& a_;
