@@ -299,8 +299,93 @@ TEST(ChartChecks, CountsCrowdedTexels) {
         make_squares({{{0.1f, 0.1f}, {0.2f, 0.2f}}, {{right, 0.1f}, {0.2f, 0.2f}}});
     const ChartFindings f = check_charts(mesh, 100, 100);
     EXPECT_EQ(f.n_crowded, gap == 0 ? 80u : gap == 1 ? 40u : 0u) << gap;
+    TriMesh upright = mesh;
+    for (glm::vec2& uv : upright.texcoords) std::swap(uv.x, uv.y);
+    EXPECT_EQ(check_charts(upright, 100, 100).n_crowded, f.n_crowded) << gap;
     EXPECT_TRUE(f.is_one_to_one());
   }
+}
+
+// Least areas and overshoots that count, from both sides: a ten-thousandth of a texel, 1e-5 of the
+// picture.
+TEST(ChartChecks, CountFromTheirThresholdsOn) {
+  const Square large{{0.2f, 0.2f}, {0.5f, 0.5f}};
+  const auto check = [&](const Square& s) {
+    return check_charts(make_squares({large, s}), 100, 100);
+  };
+  EXPECT_EQ(check({{0.8f, 0}, {0.1f, 5e-8f}}).n_flat, 1u);
+  EXPECT_EQ(check({{0.8f, 0}, {0.1f, 2e-7f}}).n_flat, 0u);
+  EXPECT_EQ(check({{0.8f, 0}, {0.1f, 2e-7f}}).n_tiny, 1u);
+  EXPECT_EQ(check({{-5e-6f, 0.75f}, {0.1f, 0.1f}}).n_outside, 0u);
+  EXPECT_EQ(check({{-3e-5f, 0.75f}, {0.1f, 0.1f}}).n_outside, 3u);
+  EXPECT_EQ(check({{0.9f, 0.75f}, {0.10003f, 0.1f}}).n_outside, 3u);
+  EXPECT_EQ(check({{0.9f, 0.75f}, {0.100005f, 0.1f}}).n_outside, 0u);
+}
+
+// Of several the first one is named, the largest overlap leads, and texels are summed.
+TEST(ChartChecks, SeveralOfAKind) {
+  const TriMesh mesh = make_squares({{{0, 0}, {0.25f, 0.25f}},
+                                     {{0.8f, 0.8f}, {0.1f, 0}},
+                                     {{0.8f, 0.9f}, {0.1f, 0}},
+                                     {{0.125f, 0}, {0.25f, 0.25f}},
+                                     {{0, 0.5f}, {0.25f, 0.25f}},
+                                     {{0.1875f, 0.5f}, {0.25f, 0.25f}},
+                                     {{1.5f, 0}, {0.25f, 0.25f}},
+                                     {{2.5f, 0}, {0.25f, 0.25f}}});
+  const ChartFindings f = check_charts(mesh, 64, 64);
+  EXPECT_EQ(f.n_flat, 2u);
+  EXPECT_EQ(f.first_flat, 2u);
+  EXPECT_EQ(f.n_repeating, 2u);
+  EXPECT_EQ(f.first_repeating, 12u);
+  ASSERT_EQ(f.overlaps.size(), 2u);
+  EXPECT_EQ(f.overlaps[0].n_texels, 8u * 16);
+  EXPECT_EQ(f.overlaps[1].n_texels, 4u * 16);
+  EXPECT_EQ(f.n_shared, 12u * 16);
+  EXPECT_EQ(f.n_overlapped, 4u);
+  EXPECT_EQ(f.overlaps[0].first, 0u);
+  EXPECT_EQ(f.overlaps[0].second, 6u);
+}
+
+// A chart folded into halves has an area, though none is left when turns are counted.
+TEST(ChartChecks, FoldedHalvesAreNotFlat) {
+  TriMesh mesh = make_squares({{{0.25f, 0.25f}, {0.5f, 0.5f}}, {{0.75f, 0.25f}, {-0.5f, 0.5f}}});
+  for (std::size_t v = 4; v < 8; ++v) mesh.positions[v] += glm::vec3(1, 0, -4);
+  const ChartFindings f = check_charts(mesh, 32, 32);
+  EXPECT_EQ(f.n_charts, 1u);
+  EXPECT_EQ(f.n_flat, 0u);
+  EXPECT_EQ(f.n_turned, 2u);
+}
+
+// Single precision has no texels that far out: such a mesh is not moved back, and repeats.
+TEST(ChartChecks, FarTilesAreNone) {
+  for (const float tile : {1000.0f, 4e6f}) {
+    const ChartFindings f = check_charts(make_squares({{{tile, 0}, {0.5f, 0.5f}}}), 64, 64);
+    EXPECT_EQ(f.tile.x, tile < 1e6f ? 1000 : 0);
+    EXPECT_EQ(f.n_repeating, tile < 1e6f ? 0u : 1u);
+  }
+}
+
+// What no texture can follow, and what it can though it is not as it should be.
+TEST(ChartChecks, Obstacles) {
+  const auto obstacle = [](const TriMesh& mesh, bool allows_overlap = false) {
+    return find_obstacle(check_charts(mesh, 64, 64), allows_overlap);
+  };
+  const Square good{{0.1f, 0.1f}, {0.3f, 0.3f}};
+  TriMesh mesh = make_squares({good});
+  EXPECT_EQ(obstacle(mesh), "");
+  mesh.texcoords[1].y = kNan;
+  EXPECT_NE(obstacle(mesh, true).find("no numbers, the first is triangle 0"), std::string::npos);
+  EXPECT_NE(obstacle(make_squares({{{2, 3}, {0.5f, 0.5f}}}), true).find("subtract 2 from u and 3"),
+            std::string::npos);
+  EXPECT_NE(obstacle(make_squares({good, {{0.5f, 0.5f}, {0.3f, 2}}}), true).find("repeats"),
+            std::string::npos);
+  const TriMesh two = make_squares({good, {{0.2f, 0.1f}, {0.3f, 0.3f}}});
+  EXPECT_NE(obstacle(two).find("lie over one another"), std::string::npos);
+  EXPECT_EQ(obstacle(two, true), "");
+  TriMesh fold = make_squares({{{0.25f, 0.25f}, {0.5f, 0.5f}}, {{0.75f, 0.25f}, {-0.25f, 0.5f}}});
+  for (std::size_t v = 4; v < 8; ++v) fold.positions[v] += glm::vec3(1, 0, -4);
+  EXPECT_EQ(obstacle(fold), "");
+  EXPECT_EQ(obstacle(make_squares({good, {{-0.05f, 0.5f}, {0.3f, 0.3f}}})), "");
 }
 
 // What is known of real models: their charts, and what looking at their charts' map shows.
