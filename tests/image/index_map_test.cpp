@@ -159,9 +159,14 @@ TEST(IndexMapFile, NumbersThatAreNotFiniteAreNamed) {
     write_samples<float>(folder / "a.exr", 2, OIIO::TypeFloat, {0, 0, 0, bad, 0, 0});
     EXPECT_NE(error_of_reading(folder / "a.exr").find("texel 1, 0: holds a number that is not"),
               std::string::npos);
-    IndexMap map(2, 2);
-    map.at(1, 1).x = bad;
-    EXPECT_THROW(write_index_map(folder / "b.exr", map), BugError);
+    write_samples<float>(folder / "a.exr", 2, OIIO::TypeFloat, {0, 0, 0, 0, bad, 0});
+    EXPECT_NE(error_of_reading(folder / "a.exr").find("texel 2, 0: holds a number that is not"),
+              std::string::npos);
+    for (const int k : {0, 1}) {
+      IndexMap map(2, 2);
+      map.at(1, 1)[k] = bad;
+      EXPECT_THROW(write_index_map(folder / "b.exr", map), BugError);
+    }
   }
   EXPECT_FALSE(fs::exists(folder / "b.exr"));
 }
@@ -188,6 +193,38 @@ TEST(IndexMapFile, PromisesThatTheFileCannotHoldAreRefused) {
   EXPECT_NE(error_of_reading(folder / "a.tif").find("bytes of pixels in a file of"),
             std::string::npos)
       << error_of_reading(folder / "a.tif");
+}
+
+// A byte of LZW stands for not quite 4096: a header that promises a little more is refused for it,
+// one that promises less is read, and found to be cut.
+TEST(IndexMapFile, PromisesAreHeldAgainstTheFile) {
+  const TemporaryFolder folder;
+  constexpr int kWidth = 40;
+  write_index_map(folder / "a.tif", IndexMap(kWidth, 9));
+  const std::string tiff = read_file(folder / "a.tif");
+  for (const double share : {0.99, 1.01}) {
+    std::string bytes = tiff;
+    const auto height = static_cast<std::uint16_t>(share * 4096 * double(tiff.size()) / 4 / kWidth);
+    std::memcpy(bytes.data() + 10 + 12 + 8, &height, 2);  // the second tag, 257
+    put_bytes(folder / "a.tif", bytes);
+    const std::string error = error_of_reading(folder / "a.tif");
+    EXPECT_EQ(error.find("bytes of pixels in a file of") != std::string::npos, share > 1) << error;
+  }
+}
+
+// Channels may each have a type of their own in an EXR.
+TEST(IndexMapFile, ChannelsOfTwoTypesAreRefused) {
+  const TemporaryFolder folder;
+  OIIO::ImageSpec spec(2, 1, 2, OIIO::TypeFloat);
+  spec.channelnames = {"texcoord.u", "texcoord.v"};
+  spec.channelformats.push_back(OIIO::TypeFloat);
+  spec.channelformats.push_back(OIIO::TypeHalf);
+  const std::string file = folder / "a.exr";
+  const auto output = OIIO::ImageOutput::create(file);
+  ASSERT_TRUE(output && output->open(file, spec));
+  const std::vector<float> samples{0, 0.25f, 0.5f, 1};
+  ASSERT_TRUE(output->write_image(OIIO::TypeFloat, samples.data()) && output->close());
+  EXPECT_NE(error_of_reading(file).find("not two of an indexing map"), std::string::npos);
 }
 
 // Cut anywhere a map is refused, or reads as before (cut in what follows its pixels). Damaged, it
