@@ -210,15 +210,17 @@ void LogBuilder::collapse_edge(const VertexSplit& split, Step step) {
 void LogBuilder::end_step(Step step) {
   log_.n_folded += step == Step::folded;
   log_.n_unmapped += step == Step::unmapped;
-  if (step != Step::unmapped)
-    for (const std::uint32_t face : map_.faces()) is_adapted_[face] = true;
+  // The star's faces move without a map, too, and one that is no fan is not among faces() whole.
+  mesh_.for_each_corner(map_.u(), [&](std::uint32_t c) { is_adapted_[c / 3] = true; });
+  for (const std::uint32_t face : map_.faces()) is_adapted_[face] = true;
   mark_start();
 }
 
 // The step as the map lies now; nothing of it unless it is done.
 LogBuilder::Step LogBuilder::add(bool is_laid, bool is_move) {
   is_move_ = is_move;
-  if (!is_laid || map_.overlay().texture_points().size() > kMostPoints) return Step::unmapped;
+  if (!is_laid || map_.is_torn() || map_.overlay().texture_points().size() > kMostPoints)
+    return Step::unmapped;
   if (!add_points() || !add_cells()) {
     log_.points.resize(log_.first_point.back());
     log_.triangles.resize(log_.first_triangle.back());

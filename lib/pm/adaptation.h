@@ -50,9 +50,10 @@ struct AdaptationLog {
   std::size_t steps_per_collapse = 1;
   std::vector<std::uint32_t> charts;  ///< of the record's faces
   std::size_t n_charts = 0;
-  std::size_t n_folded = 0;    ///< steps that turn a face over in the texture
-  std::size_t n_unmapped = 0;  ///< steps that have no map of cells
-  std::size_t n_moved = 0;     ///< edges with points that had to be moved, lest cells fold
+  std::size_t n_folded = 0;  ///< steps that turn a face over in the texture
+  /// Steps that have no map of cells; so are those of a vertex where a seam ends within a chart.
+  std::size_t n_unmapped = 0;
+  std::size_t n_moved = 0;  ///< edges with points that had to be moved, lest cells fold
 
   std::size_t n_steps() const { return first_point.empty() ? 0 : first_point.size() - 1; }
   std::size_t n_collapses() const { return n_steps() / steps_per_collapse; }

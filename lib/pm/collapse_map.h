@@ -68,6 +68,9 @@ class CollapseMap {
   }
   /// The vertex that goes, or moves.
   std::uint32_t u() const { return star_.of(); }
+  /// A seam of the texture ends in u. The map is right in space, but not in the texture at the
+  /// seam.
+  bool is_torn() const { return star_.is_torn(); }
   /// The faces of u, by their numbers in the mesh, and those that take over from lone triangles.
   std::span<const std::uint32_t> faces() const { return star_.faces(); }
   /// Of the last lay() or lay_move(); faces are places in faces().

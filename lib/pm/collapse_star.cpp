@@ -7,7 +7,7 @@ namespace viewcell {
 bool CollapseStar::gather(std::uint32_t u) {
   if (of_ == u) return is_legal_;
   of_ = u;
-  is_legal_ = false;
+  is_legal_ = is_torn_ = false;
   spokes_.clear(), rim_.clear(), sectors_.clear(), faces_.clear();
   mesh_.for_each_corner(u, [&](std::uint32_t c) {
     const std::uint32_t t = 3 * (c / 3), a = t + (c + 1 - t) % 3, b = t + (c + 2 - t) % 3;
@@ -52,8 +52,10 @@ bool CollapseStar::order(std::size_t first, std::size_t last) {
     if (n + 1 < last) {
       at = find(&Spoke::a, spoke.b);
       if (at == last) return false;  // several fans
+      is_torn_ = is_torn_ || differ(spoke.wedge_b, spokes_[at].wedge_a);
     } else {
       is_closed = spoke.b == start;
+      is_torn_ = is_torn_ || (is_closed && differ(spoke.wedge_b, rim_[begin].wedge));
       if (!is_closed) rim_.push_back({spoke.b, spoke.wedge_b, 0, {}, {}});
     }
   }
@@ -64,6 +66,10 @@ bool CollapseStar::order(std::size_t first, std::size_t last) {
                       texcoords_.empty() ? glm::dvec2(0) : glm::dvec2(texcoords_[wedge_u]),
                       wedge_u});
   return true;
+}
+
+bool CollapseStar::differ(std::uint32_t wedge_a, std::uint32_t wedge_b) const {
+  return wedge_a != wedge_b && !texcoords_.empty() && texcoords_[wedge_a] != texcoords_[wedge_b];
 }
 
 bool CollapseStar::meets_each_once(std::size_t first) const {

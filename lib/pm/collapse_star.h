@@ -39,6 +39,9 @@ class CollapseStar {
   /// is kept until forget().
   bool gather(std::uint32_t u);
   void forget() { of_ = kNone; }
+  /// Whether a seam ends in u: a neighbour in one sector has two places in the texture, and Rim::uv
+  /// is one of them.
+  bool is_torn() const { return is_torn_; }
   std::uint32_t of() const { return of_; }
   const std::vector<Sector>& sectors() const { return sectors_; }
   const std::vector<std::uint32_t>& faces() const { return faces_; }
@@ -51,6 +54,7 @@ class CollapseStar {
     std::uint32_t face, a, b, chart, wedge_u, wedge_a, wedge_b;  // chart: u's texture vertex
   };
   bool order(std::size_t first, std::size_t last);
+  bool differ(std::uint32_t wedge_a, std::uint32_t wedge_b) const;
   bool meets_each_once(std::size_t first) const;
   void locate(std::size_t first, std::uint32_t wedge_u);
 
@@ -59,7 +63,7 @@ class CollapseStar {
   std::span<const glm::vec3> positions_;
   std::span<const glm::vec2> texcoords_;
   std::uint32_t of_ = kNone;
-  bool is_legal_ = false;
+  bool is_legal_ = false, is_torn_ = false;
   std::vector<Spoke> spokes_;
   std::vector<Rim> rim_;
   std::vector<Sector> sectors_;

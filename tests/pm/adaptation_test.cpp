@@ -4,23 +4,12 @@
 
 #include <cmath>
 
+#include "pm/adaptation_areas.h"
 #include "pm/build.h"
 #include "pm/shapes.h"
 
 namespace viewcell {
 namespace {
-
-double area(const std::array<glm::vec2, 3>& p) {
-  const glm::dvec2 a = glm::dvec2(p[1]) - glm::dvec2(p[0]), b = glm::dvec2(p[2]) - glm::dvec2(p[0]);
-  return (a.x * b.y - a.y * b.x) / 2;
-}
-
-double area(const Adaptation& adaptation, const AdaptationTriangle& t,
-            glm::vec2 AdaptationPoint::*place) {
-  std::array<glm::vec2, 3> p;
-  for (std::size_t k = 0; k < 3; ++k) p[k] = adaptation.points[t.corners[k]].*place;
-  return area(p);
-}
 
 double texture_area(const TriMesh& mesh) {
   double sum = 0;
