@@ -7,7 +7,7 @@
 
 #include "image/image.h"
 #include "pm/build.h"
-#include "pm/shapes.h"
+#include "pm/parts.h"
 
 namespace viewcell {
 namespace {
@@ -81,6 +81,139 @@ TEST(ChartGuard, KeepsChartsApart) {
     EXPECT_EQ(most_shared(apart, 256), 0u);
     EXPECT_GT(apart.counts.n_refused[static_cast<std::size_t>(Refusal::overlap)], 0u);
     EXPECT_EQ(free.counts.n_refused[static_cast<std::size_t>(Refusal::overlap)], 0u);
+  }
+}
+
+// ---- By hand -----------------------------------------------------------------------------------
+
+constexpr int kSize = 32;
+
+//  3---u---2   A chart of three triangles, whose border bends at u, and another chart; rows go down
+//  | / | \ |   in texels, and so do these. u collapses into 2.
+//  0-------1
+struct Bend {
+  TriMesh mesh;
+
+  Bend(const glm::vec2& u, const std::vector<glm::vec2>& other) {
+    add({{2, 20}, {18, 20}, {18, 10}, {2, 10}, u}, {{0, 1, 4}, {0, 4, 3}, {1, 2, 4}});
+    std::vector<Triangle> fan;
+    for (std::uint32_t i = 2; i < other.size(); ++i) fan.push_back({0, i - 1, i});
+    add(other, fan);
+  }
+  void add(const std::vector<glm::vec2>& places, const std::vector<Triangle>& triangles) {
+    const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+    for (const glm::vec2& p : places)
+      mesh.positions.emplace_back(p, static_cast<float>(mesh.triangles.size()));
+    for (const Triangle& t : triangles) {
+      mesh.triangles.push_back({first + t[0], first + t[1], first + t[2]});
+      for (const std::uint32_t v : t)
+        mesh.texcoords.emplace_back((places[v].x + 0.5f) / kSize, 1 - (places[v].y + 0.5f) / kSize);
+    }
+  }
+};
+
+glm::vec2 uv_of(const glm::vec2& p) {
+  return {(p.x + 0.5f) / kSize, 1 - (p.y + 0.5f) / kSize};
+}
+
+// Whether u -> v is refused; makes it known if asked to.
+struct Guarded {
+  Parts parts;
+  ChartGuard guard;
+
+  explicit Guarded(const TriMesh& mesh) : parts(mesh), guard(parts.wedges, kSize) {}
+  bool overlaps(std::uint32_t u, std::uint32_t v) {
+    EXPECT_TRUE(parts.table.match(parts.mesh, u, v, false));
+    std::vector<glm::vec2> merged;
+    for (const auto& pair : parts.table.pairs()) merged.push_back(parts.wedges.texcoords[pair.to]);
+    return guard.overlaps(parts.mesh, parts.table, parts.wedges.texcoords, u, v, merged, false);
+  }
+  bool overlaps_at(std::uint32_t u, std::uint32_t v, const glm::vec2& place) {
+    EXPECT_TRUE(parts.table.match(parts.mesh, u, v, true));
+    const std::vector<glm::vec2> merged(parts.table.pairs().size(), uv_of(place));
+    return guard.overlaps(parts.mesh, parts.table, parts.wedges.texcoords, u, v, merged, true);
+  }
+};
+
+std::vector<glm::vec2> box(float x0, float y0, float x1, float y1) {
+  return {{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}};
+}
+
+// The border becomes a straight line at row 10, whose bend was at row 14.
+TEST(ChartGuard, LooksAtTexelsAndTheirNeighbours) {
+  const glm::vec2 u(10.1f, 14.2f);
+  const auto refused = [&](const std::vector<glm::vec2>& other) {
+    return Guarded(Bend(u, other).mesh).overlaps(4, 2);
+  };
+  EXPECT_TRUE(refused(box(9.5f, 4.5f, 11.5f, 11.5f)));   // in the bend
+  EXPECT_TRUE(refused(box(9.5f, 4.5f, 11.5f, 9.5f)));    // row 9 touches row 10
+  EXPECT_FALSE(refused(box(9.5f, 4.5f, 11.5f, 8.5f)));   // row 8 does not
+  EXPECT_TRUE(refused(box(17.5f, 4.5f, 22.5f, 9.5f)));   // texel 18, 9 touches 17, 10
+  EXPECT_FALSE(refused(box(18.5f, 4.5f, 22.5f, 9.5f)));  // 19, 9 does not
+}
+
+// A border that draws back is let, though what is left of the chart touches another.
+TEST(ChartGuard, LetsBordersDrawBack) {
+  Guarded guarded(Bend({6.1f, 6.2f}, box(17.5f, 4.5f, 22.5f, 19.5f)).mesh);
+  EXPECT_FALSE(guarded.overlaps(4, 2));
+}
+
+// Shallow bends, of less than a hundredth and of 5 millionths of the star, that hold a texel of
+// another chart.
+TEST(ChartGuard, SeesShallowBends) {
+  for (const float depth : {0.15f, 0.0001f}) {
+    Guarded guarded(Bend({10.1f, 10 + depth}, {{6, 9.5f}, {14, 9.5f}, {10, 10.1f}}).mesh);
+    EXPECT_TRUE(guarded.overlaps(4, 2)) << depth;
+  }
+}
+
+// What a collapse has given up is free, and what it has taken is not, for both charts.
+TEST(ChartGuard, RemembersWhatWasTaken) {
+  constexpr std::uint32_t first = 5;
+  // Where the first chart has a bulge up to row 6.2 the other must not come down to row 8, until
+  // the first has drawn back to row 10.
+  Bend bulge({10.1f, 6.6f}, {});
+  bulge.add({{2, 1}, {2, 8}, {10, 4.2f}, {18, 8}, {18, 1}}, {{0, 1, 2}, {0, 2, 4}, {2, 3, 4}});
+  {
+    Guarded guarded(bulge.mesh);
+    EXPECT_TRUE(guarded.overlaps(first + 2, first + 3));
+    EXPECT_FALSE(guarded.overlaps(4, 2));
+    EXPECT_TRUE(guarded.overlaps(first + 2, first + 3));  // asked, not made
+    EXPECT_FALSE(guarded.overlaps(4, 2));
+    guarded.guard.take();
+    EXPECT_FALSE(guarded.overlaps(first + 2, first + 3));
+  }
+  // Where the other has come down to row 8 the first may not rise.
+  Bend bend({10.1f, 14.2f}, {});
+  bend.add({{2, 1}, {2, 8}, {10, 4.2f}, {18, 8}, {18, 1}}, {{0, 1, 2}, {0, 2, 4}, {2, 3, 4}});
+  {
+    Guarded guarded(bend.mesh);
+    EXPECT_FALSE(guarded.overlaps_at(4, 2, {10, 7.4f}));
+    EXPECT_FALSE(guarded.overlaps(first + 2, first + 3));
+    guarded.guard.take();
+    EXPECT_TRUE(guarded.overlaps_at(4, 2, {10, 7.4f}));
+    EXPECT_FALSE(guarded.overlaps(4, 2));
+  }
+}
+
+// Of a full-edge collapse both stars follow to the new place.
+TEST(ChartGuard, FollowsBothStarsOfAFullEdge) {
+  const Bend bend({10.1f, 10}, box(16.5f, 2.5f, 20.5f, 6.5f));
+  {
+    Guarded guarded(bend.mesh);
+    EXPECT_FALSE(guarded.overlaps_at(4, 2, {17, 12}));
+    EXPECT_TRUE(guarded.overlaps_at(4, 2, {17.5f, 5}));
+  }
+  // The parent's own faces: 3 goes to u, which then moves to the right.
+  {
+    Guarded guarded(Bend({10.1f, 10}, box(9.5f, 2.5f, 20.5f, 6.5f)).mesh);
+    EXPECT_TRUE(guarded.overlaps_at(3, 4, {14, 5}));
+    EXPECT_FALSE(guarded.overlaps_at(3, 4, {9, 10}));
+  }
+  // As much is gained as the faces have that go, which both stars hold.
+  {
+    Guarded guarded(Bend({10.1f, 10}, box(19.5f, 9.5f, 20.5f, 10.5f)).mesh);
+    EXPECT_TRUE(guarded.overlaps_at(4, 2, {24.3f, 9}));
   }
 }
 
