@@ -123,13 +123,13 @@ struct Guarded {
 
   explicit Guarded(const TriMesh& mesh) : parts(mesh), guard(parts.wedges, kSize) {}
   bool overlaps(std::uint32_t u, std::uint32_t v) {
-    EXPECT_TRUE(parts.table.match(parts.mesh, u, v, false));
+    EXPECT_TRUE(parts.table.match(parts.mesh, u, v));
     std::vector<glm::vec2> merged;
     for (const auto& pair : parts.table.pairs()) merged.push_back(parts.wedges.texcoords[pair.to]);
     return guard.overlaps(parts.mesh, parts.table, parts.wedges.texcoords, u, v, merged, false);
   }
   bool overlaps_at(std::uint32_t u, std::uint32_t v, const glm::vec2& place) {
-    EXPECT_TRUE(parts.table.match(parts.mesh, u, v, true));
+    EXPECT_TRUE(parts.table.match(parts.mesh, u, v) && parts.table.match_both(parts.mesh, v));
     const std::vector<glm::vec2> merged(parts.table.pairs().size(), uv_of(place));
     return guard.overlaps(parts.mesh, parts.table, parts.wedges.texcoords, u, v, merged, true);
   }
