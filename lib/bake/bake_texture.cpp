@@ -25,6 +25,31 @@ Rgba8 fetch(const ImageRgba8& texture, const glm::vec2& uv) {
   return out;
 }
 
+ImageRgba8 continue_charts(const ImageRgba8& texture, const LevelCharts& finest, int n_threads) {
+  ImageRgba8 out = texture;
+  copy_into_gutter(
+      out, nearest_owned_texels(make_chart_mask(finest, texture.width_px, texture.height_px),
+                                kContinued, n_threads));
+  return out;
+}
+
+// continued: the texture beyond its charts. Texels that hold their own place keep the texture's.
+ImageRgba8 look_up(const IndexMap& map, const ImageRgba8& texture, const ImageRgba8& continued,
+                   int n_threads) {
+  const int width_px = map.width_px, height_px = map.height_px;
+  const bool is_same_size = width_px == texture.width_px && height_px == texture.height_px;
+  ImageRgba8 out(width_px, height_px);
+  parallel_for(static_cast<std::size_t>(height_px), n_threads, [&](std::size_t row) {
+    const int y = static_cast<int>(row);
+    for (int x = 0; x < width_px; ++x) {
+      const glm::vec2 uv = map.at(x, y);
+      const bool is_own = uv == own_place(x, y, width_px, height_px);
+      out.at(x, y) = is_same_size && is_own ? texture.at(x, y) : fetch(continued, uv);
+    }
+  });
+  return out;
+}
+
 void grow(Image<std::uint8_t>& mask) {
   const Image<std::uint8_t> last = mask;
   for (int y = 0; y < mask.height_px; ++y)
@@ -70,21 +95,7 @@ Image<std::uint8_t> make_chart_mask(const LevelCharts& charts, int width_px, int
 
 ImageRgba8 bake_texture(const IndexMap& map, const ImageRgba8& texture, const LevelCharts& finest,
                         const LevelCharts& level, int n_threads) {
-  ImageRgba8 continued = texture;
-  copy_into_gutter(
-      continued, nearest_owned_texels(make_chart_mask(finest, texture.width_px, texture.height_px),
-                                      kContinued, n_threads));
-  const int width_px = map.width_px, height_px = map.height_px;
-  const bool is_same_size = width_px == texture.width_px && height_px == texture.height_px;
-  ImageRgba8 out(width_px, height_px);
-  parallel_for(static_cast<std::size_t>(height_px), n_threads, [&](std::size_t row) {
-    const int y = static_cast<int>(row);
-    for (int x = 0; x < width_px; ++x) {
-      const glm::vec2 uv = map.at(x, y);
-      const bool is_own = uv == own_place(x, y, width_px, height_px);
-      out.at(x, y) = is_same_size && is_own ? texture.at(x, y) : fetch(continued, uv);
-    }
-  });
+  ImageRgba8 out = look_up(map, texture, continue_charts(texture, finest, n_threads), n_threads);
   fill_around(out, texture, finest, level, n_threads);
   return out;
 }

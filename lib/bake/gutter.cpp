@@ -9,22 +9,24 @@
 namespace viewcell {
 namespace {
 
-constexpr std::int32_t kNone = -1;
+constexpr std::uint32_t kNone = 0xffffffffu;
 
 // Per texel the row of the nearest owned texel of its column, the upper of two; kNone without.
-Image<std::int32_t> nearest_in_columns(const Image<std::uint8_t>& is_owned, int n_threads) {
-  Image<std::int32_t> rows(is_owned.width_px, is_owned.height_px, kNone);
+Image<std::uint32_t> nearest_in_columns(const Image<std::uint8_t>& is_owned, int n_threads) {
+  Image<std::uint32_t> rows(is_owned.width_px, is_owned.height_px, kNone);
   parallel_for(static_cast<std::size_t>(is_owned.width_px), n_threads, [&](std::size_t column) {
-    const int x = static_cast<int>(column), height = is_owned.height_px;
-    std::int32_t seen = kNone;
-    for (int y = 0; y < height; ++y) {
-      if (is_owned.at(x, y)) seen = y;
-      rows.at(x, y) = seen;
+    const int x = static_cast<int>(column);
+    const auto height = static_cast<std::uint32_t>(is_owned.height_px);
+    const auto is_owned_at = [&](std::uint32_t y) { return is_owned.at(x, static_cast<int>(y)); };
+    std::uint32_t seen = kNone;
+    for (std::uint32_t y = 0; y < height; ++y) {
+      if (is_owned_at(y)) seen = y;
+      rows.at(x, static_cast<int>(y)) = seen;
     }
     seen = kNone;
-    for (int y = height; y-- > 0;) {
-      if (is_owned.at(x, y)) seen = y;
-      std::int32_t& best = rows.at(x, y);
+    for (std::uint32_t y = height; y-- > 0;) {
+      if (is_owned_at(y)) seen = y;
+      std::uint32_t& best = rows.at(x, static_cast<int>(y));
       if (seen != kNone && (best == kNone || seen - y < y - best)) best = seen;
     }
   });
@@ -51,12 +53,17 @@ bool is_nearer(const Parabola& a, const Parabola& b, std::int64_t x) {
   return here < there || (here == there && a.row < b.row);
 }
 
-void search_row(const Image<std::int32_t>& rows, int y, std::int64_t reach,
-                std::vector<Parabola>& envelope, Image<std::uint32_t>& out) {
+// Row y of the columns' nearest rows becomes that of the nearest texels' numbers: half the memory
+// of two images.
+void search_row(Image<std::uint32_t>& image, int y, std::int64_t reach,
+                std::vector<Parabola>& envelope) {
   envelope.clear();
-  for (int x = 0; x < rows.width_px; ++x) {
-    const std::int64_t row = rows.at(x, y);
-    if (row == kNone) continue;
+  for (int x = 0; x < image.width_px; ++x) {
+    std::uint32_t& texel = image.at(x, y);
+    const std::int64_t row = texel;
+    const bool has_row = texel != kNone;
+    texel = static_cast<std::uint32_t>(image.offset(x, y));
+    if (!has_row) continue;
     const Parabola next{x, row, (row - y) * (row - y)};
     while (envelope.size() > 1 && is_hidden(envelope.end()[-2], envelope.back(), next))
       envelope.pop_back();
@@ -64,7 +71,7 @@ void search_row(const Image<std::int32_t>& rows, int y, std::int64_t reach,
   }
   if (envelope.empty()) return;
   std::size_t k = 0;
-  for (int x = 0; x < rows.width_px; ++x) {
+  for (int x = 0; x < image.width_px; ++x) {
     // Along the envelope the values at x fall, then rise; equal ones are next to each other.
     while (k + 1 < envelope.size() && envelope[k + 1].at(x) < envelope[k].at(x)) ++k;
     std::size_t best = k;
@@ -72,8 +79,8 @@ void search_row(const Image<std::int32_t>& rows, int y, std::int64_t reach,
       if (is_nearer(envelope[i], envelope[best], x)) best = i;
     const Parabola& found = envelope[best];
     if (found.at(x) <= reach * reach)
-      out.at(x, y) = static_cast<std::uint32_t>(
-          rows.offset(static_cast<int>(found.column), static_cast<int>(found.row)));
+      image.at(x, y) = static_cast<std::uint32_t>(
+          image.offset(static_cast<int>(found.column), static_cast<int>(found.row)));
   }
 }
 
@@ -82,12 +89,10 @@ void search_row(const Image<std::int32_t>& rows, int y, std::int64_t reach,
 Image<std::uint32_t> nearest_owned_texels(const Image<std::uint8_t>& is_owned, int reach_px,
                                           int n_threads) {
   VIEWCELL_CHECK(is_owned.pixels.size() < 0xffffffffu, is_owned.pixels.size());
-  Image<std::uint32_t> out(is_owned.width_px, is_owned.height_px);
-  for (std::size_t i = 0; i < out.pixels.size(); ++i) out.pixels[i] = static_cast<std::uint32_t>(i);
-  const Image<std::int32_t> rows = nearest_in_columns(is_owned, n_threads);
+  Image<std::uint32_t> out = nearest_in_columns(is_owned, n_threads);
   parallel_for(static_cast<std::size_t>(out.height_px), n_threads, [&](std::size_t y) {
     std::vector<Parabola> envelope;
-    search_row(rows, static_cast<int>(y), reach_px, envelope, out);
+    search_row(out, static_cast<int>(y), reach_px, envelope);
   });
   return out;
 }

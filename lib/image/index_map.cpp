@@ -48,28 +48,33 @@ OIIO::ImageSpec make_spec(const IndexMap& map, OIIO::TypeDesc type, const std::s
   return spec;
 }
 
-std::string encode(const OIIO::ImageSpec& spec, ImageFormat format, const void* samples) {
+std::vector<unsigned char> encode(const OIIO::ImageSpec& spec, ImageFormat format,
+                                  const void* samples) {
   configure_openimageio();
-  OIIO::Filesystem::IOVecOutput memory;
+  std::vector<unsigned char> bytes;
+  bytes.reserve(spec.image_bytes());  // what is not written to takes no memory; growing takes twice
+  OIIO::Filesystem::IOVecOutput memory(bytes);
   const auto output = OIIO::ImageOutput::create(name_of(format), &memory);
   if (!output) throw MachineError(std::string("OpenImageIO cannot write ") + name_of(format));
   const bool written = output->open(std::string("memory") + extension_of(format), spec) &&
                        output->write_image(spec.format, samples);
   if (!output->close() || !written)
     throw MachineError("encoding an indexing map: " + first_line(output->geterror()));
-  const std::vector<unsigned char>& bytes = memory.buffer();
-  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+  return bytes;
 }
 
 std::uint16_t code_of(float coordinate) {
   return static_cast<std::uint16_t>(std::lround(65535 * std::clamp(double(coordinate), 0.0, 1.0)));
 }
 
-std::string encode_tiff(const IndexMap& map, const std::string& label) {
+std::vector<unsigned char> encode_map(const IndexMap& map, ImageFormat format,
+                                      const std::string& label) {
+  if (format == ImageFormat::openexr)
+    return encode(make_spec(map, OIIO::TypeFloat, label), format, map.pixels.data());
   std::vector<std::uint16_t> codes;
   codes.reserve(2 * map.pixels.size());
   for (const glm::vec2& uv : map.pixels) codes.insert(codes.end(), {code_of(uv.x), code_of(uv.y)});
-  return encode(make_spec(map, OIIO::TypeUInt16, label), ImageFormat::tiff, codes.data());
+  return encode(make_spec(map, OIIO::TypeUInt16, label), format, codes.data());
 }
 
 // --- reading ---
@@ -129,9 +134,8 @@ void write_index_map(const fs::path& file, const IndexMap& map, const std::strin
   VIEWCELL_CHECK(!map.empty());
   for (const glm::vec2& uv : map.pixels)
     VIEWCELL_CHECK(std::isfinite(uv.x) && std::isfinite(uv.y), uv.x, uv.y);
-  if (format_by_ending(file) == ImageFormat::tiff) return write_file(file, encode_tiff(map, label));
-  write_file(file, encode(make_spec(map, OIIO::TypeFloat, label), ImageFormat::openexr,
-                          map.pixels.data()));
+  const std::vector<unsigned char> bytes = encode_map(map, format_by_ending(file), label);
+  write_file(file, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }
 
 IndexMap read_index_map(const fs::path& path, std::string* hash, std::string* label) {
