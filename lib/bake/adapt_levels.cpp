@@ -37,7 +37,9 @@ class AdaptLevels::AdapterOf : public Adapter {
   }
   const AdaptCounts& counts() const override { return counts_; }
   IndexMap map() const override {
-    if constexpr (std::is_same_v<Texel, Rgba8>)
+    if constexpr (std::is_same_v<Texel, glm::vec2>)
+      return adapter_.image();
+    else if constexpr (std::is_same_v<Texel, Rgba8>)
       VIEWCELL_CHECK(false);
     else
       return float_from(adapter_.image());
@@ -122,6 +124,7 @@ AdaptLevels::~AdaptLevels() = default;
 void AdaptLevels::set_faces(std::size_t n) {
   mesh_.set_faces(n);
   adapter_->go_to(n_collapsed());
+  if (options_.gl) options_.gl->Finish();
 }
 
 const AdaptCounts& AdaptLevels::counts() const {

@@ -37,7 +37,8 @@ class AdaptLevels {
               const AdaptLevelsOptions& options = {});
   ~AdaptLevels();
 
-  /// Coarsens or refines to the finest level of at most n faces, or the base.
+  /// Coarsens or refines to the finest level of at most n faces, or the base. Waits for what GL
+  /// draws.
   void set_faces(std::size_t n);
 
   const ProgressiveMesh& mesh() const { return mesh_; }
