@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Runs measure-texture, measure-trips, time-texture and draw-texture-figures on a small stand-in for one
-# of their models, and write-results on what they leave. First argument: the folder of binaries.
+# Runs measure-texture, measure-trips, time-texture, measure-memory and draw-texture-figures on small
+# stand-ins for their models, and write-results on what they leave. First argument: the folder of binaries.
 set -euo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
 scripts=$(cd "$(dirname "${BASH_SOURCE[0]}")/../../scripts" && pwd)
@@ -50,9 +50,36 @@ awk -F'|' '$2 ~ /Josie/ { exit !($5 * 1 == $5 && $5 > 20 && $7 < $5 && $8 > 1 &&
   fail "$(cat out/packs/table.md)"
 expect 1 "$scripts/time-texture" models out swirl
 
+# Memory: four times the texels take about four times as much, in multiples of what is held as the table has it.
+SIDES="1024 2048" expect 0 "$scripts/measure-memory" models out josie
+awk -F'|' 'NR > 2 {
+    held = $4 + $5
+    off = $11 - $10 / held
+    if (!($10 > held && $10 < 12 * held) || off > 0.1 || off < -0.1) bad = 1
+    if ($3 ~ /texture/ ? $8 !~ /^ *$/ : !($8 > held && $8 < 12 * held)) bad = 1
+    if ($2 == 2048 && !($10 > 3 * small[$3] && $10 < 8 * small[$3] && $7 > $5)) bad = 1
+    small[$3] = $10
+    n++
+  }
+  END { exit bad || n != 8 }' out/memory/table.md || fail "$(cat out/memory/table.md)"
+expect 1 "$scripts/measure-memory" models out swirl
+
 # Figures: left out where there is no model. write-results fills the document.
 expect 0 "$scripts/draw-texture-figures" models out fig309
 grep -q 'fig309 left out: no swirl' "$log/err" || fail "$(cat "$log/err")"
+# Figure 3.15 on a bumpy patch with a flat normal map: maps that follow show its bumps, those that stay do not.
+ball 24 1 | awk 'NR < 3 || NF == 4 { print; next }
+  { k = 1 + 0.06 * sin(9 * $1) * sin(9 * $2 + 1); print k * $1, k * $2, k * $3 }' >bumpy.off
+expect 0 "$bin/uvpatch" bumpy.off --faces 1500 --texture-size 256 -o bumpy.obj
+expect 0 "$bin/pmesh" build bumpy.obj --metric mapping -o bumpy.pm
+expect 0 "$bin/texadapt" bumpy.pm bumpy.png --faces 1500 --normal-map flat=flat.png -o models/LeePerrySmith.glb
+cp bumpy.png models/Map-COL.jpg
+cp flat.png models/Infinite-Level_02_Tangent_SmoothUV.jpg
+expect 0 "$scripts/measure-texture" models out leeperrysmith
+expect 0 "$scripts/draw-texture-figures" models out fig315
+[ -s out/fig315/figure.png ] || fail "no Figure 3.15"
+awk '/^original/ { n++ } /^500/ && /dB/ { db[++k] = $(NF - 1) } /^adapted/ { db[++k] = $(NF - 1) }
+  END { exit !(n == 4 && k == 8 && db[2] > db[1] + 0.5 && db[4] > db[3] + 2) }' out/fig315/notes.txt || fail "$(cat out/fig315/notes.txt)"
 printf '%s\n' '<!-- josie: table views -->' old '<!-- end -->' '<!-- trips -->' '<!-- end -->' '<!-- fig309: figure -->' kept '<!-- end -->' >doc.md
 expect 0 "$scripts/write-results" doc.md out
 grep -q '^| adapted |' doc.md && grep -q 'pictures/out/josie-sheet.png' doc.md && grep -q '^| Josie | 1 |' doc.md &&
