@@ -124,8 +124,10 @@ float turn(vec2 a, vec2 b, vec2 p) {
   return u.x * v.y - u.y * v.x;
 }
 
-bool is_in_star(vec2 p) {
-  int first = int(what.z), n = int(what.w & 0x7fffffffu);
+// n: of the corners; 0 for texels that need no answer, so that a renderer that runs both sides of a
+// branch for all texels of a block skips the loop.
+bool is_in_star(vec2 p, int n) {
+  int first = int(what.z);
   bool found = false;
   for (int k = 0; k < n; k += 3) {
     vec2 a = texelFetch(star, first + k).rg, b = texelFetch(star, first + k + 1).rg;
@@ -159,7 +161,9 @@ void main() {
   uint owner = owner_at(here());
   if (what.x != 0u) {
     bool is_free = (owner & kInside) == 0u || owner == what.x;
-    if (!is_free && !(owner == (kInside | what.y) && is_in_star(vec2(here())))) discard;
+    bool may_be_in_star = !is_free && owner == (kInside | what.y);
+    int n = may_be_in_star ? int(what.w & 0x7fffffffu) : 0;
+    if (!is_in_star(vec2(here()), n) && !is_free) discard;
     owner = what.x;
   }
   owner_out = owner;
