@@ -16,7 +16,7 @@ layout(location = 0) in vec2 to;
 layout(location = 1) in vec2 from;
 layout(location = 0) noperspective out vec2 source;
 void main() {
-  source = from;
+  source = SOURCE;
   gl_Position = clip_from_place(to);
 }
 )";
@@ -71,6 +71,12 @@ void store(Value v) {
   bits += 0xfffu + ((bits >> 13) & 1u);
   value_out = uintBitsToFloat(bits & ~uvec2(0x1fffu));
 }
+)";
+
+// Bilinear, by the sampler's own filter.
+constexpr const char* kSampleFiltered = R"(
+layout(location = 0) noperspective in vec2 source;
+void main() { store(textureLod(values, source, 0).CHANNELS); }
 )";
 
 // Bilinear. Gathered at the corner between four texels, with weights of single precision; those of
@@ -176,23 +182,26 @@ void main() {
 
 }  // namespace
 
-AdaptPrograms make_adapt_programs(const Gl& gl, int width_px, int height_px, int n_channels,
-                                  bool rounds_to_half) {
-  const bool is_color = n_channels == 4;
+AdaptPrograms make_adapt_programs(const Gl& gl, int width_px, int height_px,
+                                  const AdaptShaderOptions& options) {
   const std::string size = "const ivec2 kSize = ivec2(" + std::to_string(width_px) + ", " +
                            std::to_string(height_px) + ");\nconst uint kInside = 0x8000u;\n";
-  const std::string vertex = kVersion + size + kPlace;
+  const std::string vertex =
+      kVersion + size +
+      (options.filters ? "#define SOURCE (from + 0.5) / vec2(kSize)\n" : "#define SOURCE from\n") +
+      kPlace;
   const std::string fragment =
       kVersion + size +
-      (is_color
+      (options.n_channels == 4
            ? "#define Value vec4\n#define CHANNELS rgba\n#define FILL , 0, 0\n#define GATHER G(0), "
              "G(1), G(2), G(3)\n"
            : "#define Value vec2\n#define CHANNELS rg\n#define FILL\n#define GATHER G(0), G(1)\n") +
       "#define G(k) dot(textureGather(values, corner, k), weights)\n" + kValues +
-      (rounds_to_half ? kStoreHalf : kStoreExact);
+      (options.rounds_to_half ? kStoreHalf : kStoreExact);
   return {GlProgram(gl, "copy owned texels", vertex + kCopyVertex, fragment + kCopyOwned),
           GlProgram(gl, "copy texels", vertex + kCopyVertex, fragment + kCopyValues),
-          GlProgram(gl, "adapt texels", vertex + kSampleVertex, fragment + kSample),
+          GlProgram(gl, "adapt texels", vertex + kSampleVertex,
+                    fragment + (options.filters ? kSampleFiltered : kSample)),
           GlProgram(gl, "adapt owned texels", vertex + kOwnedVertex, fragment + kSampleOwned)};
 }
 

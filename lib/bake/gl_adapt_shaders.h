@@ -11,9 +11,13 @@ struct AdaptPrograms {
   GlProgram copy_owned, copy_values, sample, sample_owned;
 };
 
-/// n_channels: 2 for coordinates, 4 for colours. rounds_to_half: values are rounded to the nearest
-/// 16-bit float, which GL leaves to the driver.
-AdaptPrograms make_adapt_programs(const Gl& gl, int width_px, int height_px, int n_channels,
-                                  bool rounds_to_half);
+struct AdaptShaderOptions {
+  int n_channels = 2;           ///< 2 for coordinates, 4 for colours
+  bool rounds_to_half = false;  ///< to the nearest 16-bit float, which GL leaves to the driver
+  bool filters = false;         ///< by the sampler (gl/filter_precision.h); false: by hand
+};
+
+AdaptPrograms make_adapt_programs(const Gl& gl, int width_px, int height_px,
+                                  const AdaptShaderOptions& options);
 
 }  // namespace viewcell

@@ -8,6 +8,7 @@
 #include "bake/adapt_packs.h"
 #include "bake/gl_adapt_batch.h"
 #include "bake/gl_adapt_shaders.h"
+#include "gl/filter_precision.h"
 #include "gl/framebuffer.h"
 
 namespace viewcell {
@@ -97,8 +98,11 @@ class GlTextureAdapter<Texel>::Engine {
         width_px_(image.width_px),
         height_px_(image.height_px),
         options_(options),
-        programs_(make_adapt_programs(gl, width_px_, height_px_, kIsIndex ? 2 : 4,
-                                      std::is_same_v<Texel, HalfTexel>)),
+        programs_(make_adapt_programs(
+            gl, width_px_, height_px_,
+            {.n_channels = kIsIndex ? 2 : 4,
+             .rounds_to_half = std::is_same_v<Texel, HalfTexel>,
+             .filters = filters_precisely(gl, kFormat<Texel>.internal_format)})),
         array_(gl),
         owned_array_(gl),
         builder_(log, owners_up, kIsIndex),
@@ -107,6 +111,8 @@ class GlTextureAdapter<Texel>::Engine {
     for (GlFramebuffer& target : targets_) {
       target = GlFramebuffer(gl, width_px_, height_px_,
                              {kFormat<Texel>.internal_format, kOwnerFormat.internal_format});
+      for (const GLenum filter : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER})
+        gl.TextureParameteri(target.color(0).id(), filter, GL_LINEAR);
       write_texture(gl, target.color(0), kFormat<Texel>, rows_up);
       write_texture(gl, target.color(1), kOwnerFormat, owners_up);
     }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -227,6 +228,9 @@ TEST(GlTextureAdapter, LeavesGlAsItWas) {
     gl().GetIntegerv(state, &value);
     EXPECT_EQ(value, 1) << state;
   }
+  std::array<GLint, 4> writes{};
+  gl().GetIntegerv(GL_COLOR_WRITEMASK, writes.data());
+  EXPECT_EQ(writes, (std::array<GLint, 4>{1, 1, 1, 1}));
 }
 
 // A chart of a square, from 4 to 12 texels, whose corners lie between texels.

@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "gl/context.h"
+#include "gl/filter_precision.h"
 #include "gl/framebuffer.h"
 #include "gl/objects.h"
 
@@ -126,6 +127,14 @@ TEST(GlFramebuffer, TriangleCoversPixelCentresWithTopRowFirst) {
   for (int y = 0; y < 16; ++y)
     for (int x = 0; x < 16; ++x)
       EXPECT_EQ(image.at(x, y), x + y + 1 < 15.75 ? kRed8 : kNothing8) << x << "," << y;
+}
+
+// llvmpipe filters floats in single precision; whole numbers of 8 bits cannot show so much.
+TEST(FiltersPrecisely, FloatsButNotBytes) {
+  EXPECT_TRUE(filters_precisely(gl(), GL_RG32F));
+  EXPECT_TRUE(filters_precisely(gl(), GL_RG16));
+  EXPECT_FALSE(filters_precisely(gl(), GL_RG8));
+  EXPECT_FALSE(filters_precisely(gl(), GL_RGBA8));
 }
 
 TEST(GlFramebuffer, NearerIsGreaterInAnyOrder) {
