@@ -84,11 +84,12 @@ std::size_t AdaptBatch::n_bytes() const {
 }
 
 AdaptBatchBuilder::AdaptBatchBuilder(const AdaptationLog& log, const Image<std::uint16_t>& owners,
-                                     bool has_original)
+                                     bool has_original, bool copies_boxes)
     : log_(log),
       width_px_(owners.width_px),
       height_px_(owners.height_px),
       has_original_(has_original),
+      copies_boxes_(copies_boxes),
       tiles_(owners) {}
 
 AdaptBatch AdaptBatchBuilder::take() {
@@ -101,6 +102,9 @@ void AdaptBatchBuilder::add_pack(std::span<const std::uint32_t> collapses, bool 
   draws.sample_owned.first = batch_.owned.size();
   add_copies(written_owned_, scratch_.released);
   add_copies(written_, scratch_.own_place);
+  draws.boxes = {batch_.boxes.size(), written_boxes_.size()};
+  batch_.boxes.insert(batch_.boxes.end(), written_boxes_.begin(), written_boxes_.end());
+  written_boxes_.clear();
   for (const std::uint32_t collapse : collapses) {
     const Adaptation adaptation = log_.of(collapse);
     read_points(adaptation, is_collapse);
@@ -150,7 +154,7 @@ bool AdaptBatchBuilder::is_own_place(const AdaptationTriangle& t, bool is_collap
 void AdaptBatchBuilder::add_plain(const Adaptation& adaptation, bool is_collapse) {
   add_triangles(adaptation, is_collapse, false);
   if (has_original_ && !is_collapse) add_triangles(adaptation, is_collapse, true);
-  add_outline(scratch_.to, written_);
+  add_written(adaptation, written_);
 }
 
 // Those that are sampled, or those that get their own place.
@@ -198,12 +202,12 @@ void AdaptBatchBuilder::add_owned(const Adaptation& adaptation, bool is_collapse
       batch_.owned.push_back(vertex);
     }
   });
-  if (!has_border) return add_outline(scratch_.to, written_owned_);
+  if (!has_border) return add_written(adaptation, written_owned_);
   Bounds bounds;
   bounds.add(scratch_.from), bounds.add(scratch_.to);
   for (const AdaptationTriangle& t : adaptation.triangles)
     tiles_.mark(bounds.lo - 2 * kGutter, bounds.hi + 2 * kGutter, owner_name(t.chart));
-  add_box(written_owned_);
+  add_border_written();
 }
 
 // What the star held is no chart's until it is written again.
@@ -250,6 +254,20 @@ void AdaptBatchBuilder::add_gutter(const TexelTriangle& from, const TexelTriangl
   }
 }
 
+// What an adaptation inside a chart writes. Its box may be much larger where it lies slant.
+void AdaptBatchBuilder::add_written(const Adaptation& adaptation, Outlines& outlines) {
+  constexpr float kLargest = 4, kSmall = 256;  // times the star's texels; texels
+  if (!copies_boxes_) return add_outline(scratch_.to, outlines);
+  float texels = 0;
+  for (const AdaptationTriangle& t : adaptation.triangles)
+    texels += 0.5f * std::abs(area2(corners(scratch_.to, t)));
+  Bounds bounds;
+  bounds.add(scratch_.to);
+  const glm::vec2 size = bounds.hi - bounds.lo;
+  if (!(size.x * size.y < kLargest * texels + kSmall)) return add_outline(scratch_.to, outlines);
+  add_copied_box(bounds.lo - kSnap, bounds.hi + kSnap, false);
+}
+
 // Around what is written inside a chart.
 void AdaptBatchBuilder::add_outline(std::vector<glm::vec2>& points, Outlines& outlines) {
   const glm::vec2 size(width_px_, height_px_);
@@ -260,16 +278,25 @@ void AdaptBatchBuilder::add_outline(std::vector<glm::vec2>& points, Outlines& ou
   outlines.n_corners.push_back(hull.size());
 }
 
-// Around a star at a border, with its gutters.
-void AdaptBatchBuilder::add_box(Outlines& outlines) {
+// A star at a border, with its gutters.
+void AdaptBatchBuilder::add_border_written() {
   const glm::vec2 size(width_px_, height_px_);
   Bounds bounds;
   bounds.add(scratch_.from), bounds.add(scratch_.to);
   const glm::vec2 lo = glm::clamp(bounds.lo - 2 * kGutter, -size, 2.0f * size);
   const glm::vec2 hi = glm::clamp(bounds.hi + 2 * kGutter, -size, 2.0f * size);
+  if (copies_boxes_) return add_copied_box(lo, hi, true);
   for (const glm::vec2& p : {lo, glm::vec2(hi.x, lo.y), hi, glm::vec2(lo.x, hi.y)})
-    outlines.corners.push_back(p);
-  outlines.n_corners.push_back(4);
+    written_owned_.corners.push_back(p);
+  written_owned_.n_corners.push_back(4);
+}
+
+void AdaptBatchBuilder::add_copied_box(const glm::vec2& lo, const glm::vec2& hi, bool has_owners) {
+  const glm::vec2 size(width_px_, height_px_);
+  const glm::ivec2 first(glm::ceil(glm::clamp(lo, glm::vec2(0), size)));
+  const glm::ivec2 end = glm::ivec2(glm::floor(glm::clamp(hi, glm::vec2(-1), size - 1.0f))) + 1;
+  if (first.x < end.x && first.y < end.y)
+    written_boxes_.push_back({first.x, first.y, end.x - first.x, end.y - first.y, has_owners});
 }
 
 // What the last pack wrote, and a little around it.

@@ -43,12 +43,20 @@ struct DrawRange {
   std::size_t first = 0, n = 0;
 };
 
-/// Draws of one pack, in this order; the first three of indices, the last of owned vertices.
+/// A part of the texture.
+struct TexelBox {
+  int x = 0, y = 0, width_px = 0, height_px = 0;
+  bool has_owners = false;
+};
+
+/// Draws of one pack, in this order, after the boxes that are copied without drawing; the first
+/// three of indices, the last of owned vertices.
 struct PackDraws {
   DrawRange copy_owned;   ///< values and owners of the pack before, and what stars give up
   DrawRange copy_values;  ///< values of the pack before, and texels that get their own place
   DrawRange sample;
   DrawRange sample_owned;
+  DrawRange boxes;  ///< of the pack before: values, and owners where they have any
 };
 
 /// Some packs, to be uploaded at once.
@@ -57,6 +65,7 @@ struct AdaptBatch {
   std::vector<std::uint32_t> indices;
   std::vector<OwnedVertex> owned;
   std::vector<glm::vec2> star_corners;  ///< three a triangle
+  std::vector<TexelBox> boxes;
   std::vector<PackDraws> packs;
 
   std::size_t n_bytes() const;
@@ -67,8 +76,9 @@ struct AdaptBatch {
 class AdaptBatchBuilder {
  public:
   /// owners: rows up. has_original: texels may be set to their own place (indexing maps).
-  AdaptBatchBuilder(const AdaptationLog& log, const Image<std::uint16_t>& owners,
-                    bool has_original);
+  /// copies_boxes: what a pack wrote is copied as boxes, but where it lies too slant; false: drawn.
+  AdaptBatchBuilder(const AdaptationLog& log, const Image<std::uint16_t>& owners, bool has_original,
+                    bool copies_boxes);
   /// collapses: of one pack. is_collapse: false for splits.
   void add_pack(std::span<const std::uint32_t> collapses, bool is_collapse);
   AdaptBatch take();  ///< the packs since the last time
@@ -92,18 +102,21 @@ class AdaptBatchBuilder {
   void add_release(const Adaptation& adaptation);
   void add_gutter(const TexelTriangle& from, const TexelTriangle& to, std::size_t edge,
                   OwnedVertex vertex);
+  void add_written(const Adaptation& adaptation, Outlines& outlines);
   void add_outline(std::vector<glm::vec2>& points, Outlines& outlines);
-  void add_box(Outlines& outlines);
+  void add_border_written();
+  void add_copied_box(const glm::vec2& lo, const glm::vec2& hi, bool has_owners);
   void add_copies(Outlines& outlines, std::vector<std::uint32_t>& indices);
   DrawRange append(const std::vector<std::uint32_t>& indices);
 
   const AdaptationLog& log_;
   int width_px_, height_px_;
-  bool has_original_;
+  bool has_original_, copies_boxes_;
   OwnerTiles tiles_;
   AdaptBatch batch_;
   Scratch scratch_;
   Outlines written_, written_owned_;  // by the last pack
+  std::vector<TexelBox> written_boxes_;
 };
 
 }  // namespace viewcell

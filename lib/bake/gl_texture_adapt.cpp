@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <span>
 #include <type_traits>
 
 #include "bake/adapt_packs.h"
 #include "bake/gl_adapt_batch.h"
 #include "bake/gl_adapt_shaders.h"
+#include "gl/context.h"
 #include "gl/filter_precision.h"
 #include "gl/framebuffer.h"
 
@@ -105,7 +107,7 @@ class GlTextureAdapter<Texel>::Engine {
              .filters = filters_precisely(gl, kFormat<Texel>.internal_format)})),
         array_(gl),
         owned_array_(gl),
-        builder_(log, owners_up, kIsIndex),
+        builder_(log, owners_up, kIsIndex, options.copies_boxes.value_or(is_software_renderer(gl))),
         n_collapsed_(n_collapsed) {
     const Image<Texel> rows_up = flip_rows(image);
     for (GlFramebuffer& target : targets_) {
@@ -136,6 +138,7 @@ class GlTextureAdapter<Texel>::Engine {
   void set_attributes();
   void draw(const AdaptBatch& batch);
   void draw_pack(const PackDraws& draws, FlatDrawing& drawing);
+  void copy_boxes(std::span<const TexelBox> boxes);
   void draw_elements(const GlProgram& program, const DrawRange& range);
 
   const Gl& gl_;
@@ -198,8 +201,23 @@ void GlTextureAdapter<Texel>::Engine::draw(const AdaptBatch& batch) {
   gl_.VertexArrayVertexBuffer(owned_array_.id(), 0, owned.id(), 0, sizeof(OwnedVertex));
   gl_.BindTextureUnit(2, star.id());
   FlatDrawing drawing(gl_);
-  for (const PackDraws& draws : batch.packs) draw_pack(draws, drawing);
+  for (const PackDraws& draws : batch.packs) {
+    copy_boxes(std::span(batch.boxes).subspan(draws.boxes.first, draws.boxes.n));
+    draw_pack(draws, drawing);
+  }
   counts_.n_bytes += batch.n_bytes();
+}
+
+// From the texture that is whole to the other.
+template <typename Texel>
+void GlTextureAdapter<Texel>::Engine::copy_boxes(std::span<const TexelBox> boxes) {
+  const GlFramebuffer& source = targets_[current_];
+  const GlFramebuffer& target = targets_[1 - current_];
+  for (const TexelBox& box : boxes)
+    for (std::size_t k = 0; k < (box.has_owners ? 2u : 1u); ++k)
+      gl_.CopyImageSubData(source.color(k).id(), GL_TEXTURE_2D, 0, box.x, box.y, 0,
+                           target.color(k).id(), GL_TEXTURE_2D, 0, box.x, box.y, 0, box.width_px,
+                           box.height_px, 1);
 }
 
 template <typename Texel>

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "bake/texture_adapt.h"
 #include "gl/objects.h"
@@ -11,6 +12,9 @@ namespace viewcell {
 struct GlAdaptOptions {
   /// Disjoint collapses in one change of the target; false: a change each.
   bool pack = true;
+  /// What a pack wrote is brought along by glCopyImageSubData, a call a collapse, and not by
+  /// drawing. Unset: where GL runs on the processor.
+  std::optional<bool> copies_boxes = {};
   std::size_t batch_bytes = 4 << 20;  ///< vertices uploaded at once; at least one pack
 };
 

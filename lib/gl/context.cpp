@@ -88,4 +88,9 @@ GlContext::GlContext(GlEngine engine)
   check_gl(gl_, "setting up the context");
 }
 
+bool is_software_renderer(const Gl& gl) {
+  const auto* renderer = reinterpret_cast<const char*>(gl.GetString(GL_RENDERER));
+  return renderer && count_raster_threads(renderer) > 0;
+}
+
 }  // namespace viewcell

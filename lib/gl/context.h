@@ -24,6 +24,9 @@ class GlBackend {
   virtual GlLoader loader() const = 0;
 };
 
+/// True of a driver known to draw on the processor's cores (Mesa's llvmpipe and softpipe).
+bool is_software_renderer(const Gl& gl);
+
 /// Owns a context, which is current on the thread that made it. Draw into a GlFramebuffer: the
 /// default framebuffer is a dummy or absent.
 ///

@@ -55,6 +55,7 @@
   X(TextureBuffer, TEXTUREBUFFER)                             \
   X(TextureBufferRange, TEXTUREBUFFERRANGE)                   \
   X(GetTextureImage, GETTEXTUREIMAGE)                         \
+  X(CopyImageSubData, COPYIMAGESUBDATA)                       \
   X(CreateFramebuffers, CREATEFRAMEBUFFERS)                   \
   X(DeleteFramebuffers, DELETEFRAMEBUFFERS)                   \
   X(BindFramebuffer, BINDFRAMEBUFFER)                         \

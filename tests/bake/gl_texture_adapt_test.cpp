@@ -153,17 +153,22 @@ TEST_P(GlTextureAdapterOf, WholeRunsAgree) {
   EXPECT_LT(3 * drawn.counts().n_packs, drawn.counts().n_adaptations);
 }
 
-// One by one, in steps, in small uploads: the same bits.
+// One by one, in steps, in small uploads, copied as boxes and by drawing: the same bits.
 TEST_P(GlTextureAdapterOf, PacksStepsAndUploadsChangeNothing) {
   Levels bump(GetParam());
   const std::size_t n = bump.log.n_collapses();
   const LevelCharts charts = bump.charts(0);
-  GlTextureAdapter<glm::vec2> packed(gl(), bump.log, start_map(), charts);
-  GlTextureAdapter<glm::vec2> one(gl(), bump.log, start_map(), charts, 0, {.pack = false});
-  GlTextureAdapter<glm::vec2> steps(gl(), bump.log, start_map(), charts, 0, {.batch_bytes = 5000});
+  const auto make = [&](const GlAdaptOptions& options) {
+    return GlTextureAdapter<glm::vec2>(gl(), bump.log, start_map(), charts, 0, options);
+  };
+  auto packed = make({.copies_boxes = true}), drawn = make({.copies_boxes = false});
+  auto one = make({.pack = false, .copies_boxes = true});
+  auto steps = make({.copies_boxes = false, .batch_bytes = 5000});
   for (const std::size_t level : {n, n / 3}) {
-    packed.go_to(level), one.go_to(level);
+    packed.go_to(level), drawn.go_to(level), one.go_to(level);
     steps.go_to(n / 2), steps.go_to(level), steps.go_to(level);
+    EXPECT_EQ(packed.image().pixels, drawn.image().pixels);
+    EXPECT_EQ(packed.owners().pixels, drawn.owners().pixels);
     EXPECT_EQ(packed.image().pixels, one.image().pixels);
     EXPECT_EQ(packed.image().pixels, steps.image().pixels);
     EXPECT_EQ(packed.owners().pixels, one.owners().pixels);
@@ -171,6 +176,7 @@ TEST_P(GlTextureAdapterOf, PacksStepsAndUploadsChangeNothing) {
   }
   EXPECT_EQ(one.counts().n_packs, one.counts().n_adaptations);
   EXPECT_EQ(packed.counts().n_adaptations, one.counts().n_adaptations);
+  EXPECT_LT(packed.counts().n_bytes, drawn.counts().n_bytes);
 }
 
 // Both engines over whole runs; the parts of channels that differ by more than `near`.

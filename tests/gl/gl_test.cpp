@@ -129,6 +129,10 @@ TEST(GlFramebuffer, TriangleCoversPixelCentresWithTopRowFirst) {
       EXPECT_EQ(image.at(x, y), x + y + 1 < 15.75 ? kRed8 : kNothing8) << x << "," << y;
 }
 
+TEST(GlContext, KnowsThatItsRendererIsTheProcessor) {
+  EXPECT_EQ(is_software_renderer(gl()), shared_context().n_threads() > 0);
+}
+
 // llvmpipe filters floats in single precision; whole numbers of 8 bits cannot show so much.
 TEST(FiltersPrecisely, FloatsButNotBytes) {
   EXPECT_TRUE(filters_precisely(gl(), GL_RG32F));
