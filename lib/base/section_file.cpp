@@ -4,6 +4,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 
 #include "base/file.h"
@@ -104,12 +105,15 @@ void SectionReader::read_table(std::uint32_t kind, const std::string& what) {
   if (hash != hash_bytes(head.data(), head.size() - 8))
     fail("", "its table of sections is damaged");
   sections_.resize(n);
+  std::uint64_t end = head.size();
   for (std::size_t i = 0; i < n; ++i) {
     std::memcpy(&sections_[i], head.data() + kHeadBytes + i * kEntryBytes, kEntryBytes);
     const Section& section = sections_[i];
     if (section.offset > size || section.n_bytes > size - section.offset)
       fail(std::string(section.tag, strnlen(section.tag, 8)), "reaches past the end of the file");
+    end = std::max(end, section.offset + section.n_bytes);
   }
+  if (end != size) fail("", std::to_string(size - end) + " bytes follow its last section");
 }
 
 const SectionReader::Section& SectionReader::find(const std::string& tag) const {

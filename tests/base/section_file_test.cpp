@@ -128,6 +128,15 @@ TEST(SectionFile, EveryChangedByteIsRefusedOrChangesNothing) {
   EXPECT_EQ(n_harmless, 2 * (8 + 4 + 8u));  // two bits in each byte of padding, and nowhere else
 }
 
+TEST(SectionFile, RefusesWhatFollowsTheLastSection) {
+  const TemporaryFolder folder;
+  const std::string bytes = make_file(folder, make_contents());
+  EXPECT_INPUT_ERROR(read_bytes(folder, bytes + std::string(1, '\0')), "1 bytes follow");
+  EXPECT_INPUT_ERROR(read_bytes(folder, bytes + bytes), "follow its last section");
+  SectionWriter(kKind).write(folder.path() / "none");
+  EXPECT_NO_THROW(SectionReader(folder.path() / "none", kKind));
+}
+
 TEST(SectionFile, EveryTruncationIsRefusedOrChangesNothing) {
   const TemporaryFolder folder;
   const Contents c = make_contents();
