@@ -79,6 +79,28 @@ void sync_path(const fs::path& path, int flags) {
     throw MachineError(path.string() + ": cannot sync: " + errno_text());
 }
 
+fs::path folder_of(const fs::path& file) {
+  return file.has_parent_path() ? file.parent_path() : ".";
+}
+
+void rename_into_place(const fs::path& temporary, const fs::path& target) {
+  if (::rename(temporary.c_str(), target.c_str()) != 0)
+    throw MachineError(target.string() + ": cannot rename into place: " + errno_text());
+  sync_path(folder_of(target), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+}
+
+// Through a file that has no name until all of it is on disk, so that a kill leaves none behind.
+// False where the file system or the machine has no such files.
+bool write_unnamed(const fs::path& temporary, const fs::path& target, std::string_view bytes) {
+  const Descriptor fd(::open(folder_of(target).c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0644));
+  if (fd.get() < 0) return false;
+  write_all(fd.get(), bytes, target.string());
+  if (::fsync(fd.get()) != 0)
+    throw MachineError(target.string() + ": cannot sync: " + errno_text());
+  const std::string unnamed = "/proc/self/fd/" + std::to_string(fd.get());
+  return ::linkat(AT_FDCWD, unnamed.c_str(), AT_FDCWD, temporary.c_str(), AT_SYMLINK_FOLLOW) == 0;
+}
+
 }  // namespace
 
 std::string read_file(const fs::path& path, std::uint64_t max_bytes) {
@@ -116,6 +138,8 @@ void write_file(const fs::path& path, std::string_view bytes) {
     return write_all(fd.get(), bytes, path.string());
   }
   PendingFile pending(path);
+  if (write_unnamed(pending.temporary(), path, bytes))
+    return rename_into_place(pending.temporary(), path);
   {
     const Descriptor fd(
         ::open(pending.temporary().c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644));
@@ -136,11 +160,8 @@ PendingFile::~PendingFile() {
 
 void PendingFile::commit() {
   sync_path(temporary_, O_RDONLY | O_CLOEXEC);
-  if (::rename(temporary_.c_str(), target_.c_str()) != 0)
-    throw MachineError(target_.string() + ": cannot rename into place: " + errno_text());
+  rename_into_place(temporary_, target_);
   temporary_.clear();
-  const fs::path folder = target_.has_parent_path() ? target_.parent_path() : ".";
-  sync_path(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
 }
 
 void make_folder(const fs::path& folder) {

@@ -15,8 +15,9 @@ namespace viewcell {
 std::string read_file(const std::filesystem::path& path, std::uint64_t max_bytes = 1ULL << 33);
 
 /// Writes the bytes to a temporary beside the target, syncs and renames it: after a kill at any
-/// moment the target is absent, old or whole. "-" writes standard output; a device or a pipe is
-/// written to as it is. Throws MachineError.
+/// moment the target is absent, old or whole, and where the file system has files without a name
+/// (ext4, xfs, btrfs, tmpfs) hardly a temporary is left behind. "-" writes standard output; a
+/// device or a pipe is written to as it is. Throws MachineError.
 void write_file(const std::filesystem::path& path, std::string_view bytes);
 
 /// A file that others fill by name (a library's writer): write to temporary(), then commit().

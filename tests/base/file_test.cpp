@@ -1,8 +1,12 @@
 #include "base/file.h"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
+#include <csignal>
 #include <fstream>
 
 #include "base/random.h"
@@ -39,6 +43,23 @@ TEST(WriteFile, FailureLeavesTheTargetAndNoTemporary) {
   EXPECT_THROW(write_file(folder.path() / "taken", "new"), MachineError);
   EXPECT_EQ(read_file(folder.path() / "taken" / "old"), "old");
   EXPECT_THROW(write_file(folder.path() / "absent" / "file", "new"), MachineError);
+  EXPECT_EQ(count_entries(folder.path()), 1u);
+}
+
+// The limit kills in the middle of writing.
+TEST(WriteFile, AKillLeavesNoTemporary) {
+  const TemporaryFolder folder;
+  const int fd = ::open(folder.path().c_str(), O_TMPFILE | O_WRONLY, 0600);
+  if (fd < 0) GTEST_SKIP() << "no files without a name here";
+  ::close(fd);
+  const fs::path target = folder.add("a", "old");
+  const auto write_much = [&] {
+    const rlimit limit{4096, 4096};
+    ::setrlimit(RLIMIT_FSIZE, &limit);
+    write_file(target, std::string(100000, 'x'));
+  };
+  EXPECT_EXIT(write_much(), testing::KilledBySignal(SIGXFSZ), "");
+  EXPECT_EQ(read_file(target), "old");
   EXPECT_EQ(count_entries(folder.path()), 1u);
 }
 
