@@ -12,9 +12,11 @@ constexpr std::uint32_t kKind = 4;
 constexpr const char* kFormat = "viewcell-pm";
 constexpr int kVersion = 1;
 
-void check_finite(const SectionReader& reader, const char* tag, const std::vector<glm::vec3>& v) {
-  for (const glm::vec3& p : v)
-    if (!std::isfinite(p.x + p.y + p.z)) reader.fail(tag, "has a number that is not finite");
+template <typename Vec>
+void check_finite(const SectionReader& reader, const char* tag, const std::vector<Vec>& values) {
+  for (const Vec& v : values)
+    for (int k = 0; k < Vec::length(); ++k)
+      if (!std::isfinite(v[k])) reader.fail(tag, "has a number that is not finite");
 }
 
 }  // namespace
@@ -71,7 +73,11 @@ ProgressiveRecord read_pm(const std::filesystem::path& file) {
   reader.read("OLDPLACE", r.parent_positions);
   reader.read("OLDTEX", r.parent_texcoords);
   check_finite(reader, "POSITION", a.positions);
+  check_finite(reader, "NORMALS", a.normals);
+  check_finite(reader, "COLORS", a.colors);
+  check_finite(reader, "TEXCOORD", r.texcoords);
   check_finite(reader, "OLDPLACE", r.parent_positions);
+  check_finite(reader, "OLDTEX", r.parent_texcoords);
   if (a.positions.empty() || r.faces.empty()) reader.fail("FACES", "holds no mesh");
   if (const std::string wrong = check_record(r); !wrong.empty()) reader.fail("SPLITS", wrong);
   return r;

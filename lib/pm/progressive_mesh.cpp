@@ -166,32 +166,121 @@ std::string check_ranges(const ProgressiveRecord& r, std::size_t n_wedges) {
   return "";
 }
 
-// Makes the splits: a face comes once, and a corner that moves is alive and has the pair's parent.
+// Makes the splits, one after another. The other way round each must be the collapse of an edge, as
+// logs of adaptations make them again: all faces at the child come or move with it, those that come
+// have the edge, and no others.
+class SplitChecker {
+ public:
+  explicit SplitChecker(const ProgressiveRecord& r)
+      : r_(r),
+        faces_(r.faces),
+        is_alive_(r.faces.size(), true),
+        n_corners_(r.attributes.positions.size(), 0) {}
+
+  std::string check_base();
+  /// Of the next split.
+  std::string check(const VertexSplit& split);
+
+ private:
+  std::uint32_t vertex_of(std::uint32_t wedge) const {
+    const std::size_t n = r_.vertex_of.size();
+    return r_.vertex_of[wedge < n ? wedge : r_.extra_sources[wedge - n]];
+  }
+  // Corners of a face at a vertex.
+  std::ptrdiff_t count(const Triangle& face, std::uint32_t vertex) const {
+    return std::count_if(face.begin(), face.end(),
+                         [&](std::uint32_t wedge) { return vertex_of(wedge) == vertex; });
+  }
+  bool is_born_with(const VertexSplit& split, const ProgressiveRecord::WedgePair& pair) const;
+  std::string check_pairs(const VertexSplit& split) const;
+  std::string move_corners(const VertexSplit& split);
+  std::string bear_faces(const VertexSplit& split);
+
+  const ProgressiveRecord& r_;
+  std::vector<Triangle> faces_;
+  std::vector<bool> is_alive_;
+  std::vector<std::uint32_t> n_corners_;  // by vertex, of faces that are there
+  std::size_t born_ = 0, moved_ = 0, pair_ = 0;
+};
+
+std::string SplitChecker::check_base() {
+  for (const std::uint32_t face : r_.born) {
+    if (face >= faces_.size() || !is_alive_[face]) return "a face comes twice, or is none";
+    is_alive_[face] = false;
+  }
+  for (std::size_t f = 0; f < faces_.size(); ++f)
+    for (const std::uint32_t wedge : faces_[f]) n_corners_[vertex_of(wedge)] += is_alive_[f];
+  return "";
+}
+
+std::string SplitChecker::check(const VertexSplit& split) {
+  if (std::max(split.child, split.parent) >= n_corners_.size())
+    return "names a vertex out of range";
+  if (split.child == split.parent || n_corners_[split.child] > 0)
+    return "has a child that is there already";
+  std::string wrong = check_pairs(split);
+  if (wrong.empty()) wrong = move_corners(split);
+  if (wrong.empty()) wrong = bear_faces(split);
+  pair_ += split.n_pairs;
+  return wrong;
+}
+
+// Where wedges have texture coordinates, two of them meet at a face with the edge.
+bool SplitChecker::is_born_with(const VertexSplit& split,
+                                const ProgressiveRecord::WedgePair& pair) const {
+  const auto has = [](const Triangle& face, std::uint32_t wedge) {
+    return std::find(face.begin(), face.end(), wedge) != face.end();
+  };
+  for (std::size_t i = born_; i < born_ + split.n_born; ++i)
+    if (has(faces_[r_.born[i]], pair.child) && has(faces_[r_.born[i]], pair.parent)) return true;
+  return false;
+}
+
+std::string SplitChecker::check_pairs(const VertexSplit& split) const {
+  for (std::size_t i = pair_; i < pair_ + split.n_pairs; ++i) {
+    const auto& pair = r_.pairs[i];
+    if (vertex_of(pair.child) != split.child || vertex_of(pair.parent) != split.parent)
+      return "has a pair of wedges that are not the child's and the parent's";
+    if (!r_.texcoords.empty() && !is_born_with(split, pair))
+      return "has a pair of wedges that meet at no face";
+  }
+  return "";
+}
+
+std::string SplitChecker::move_corners(const VertexSplit& split) {
+  for (std::uint32_t k = 0; k < split.n_moved; ++k, ++moved_) {
+    const std::uint32_t corner = r_.moved[moved_];
+    if (corner / 3 >= faces_.size() || !is_alive_[corner / 3] ||
+        r_.moved_by[moved_] >= split.n_pairs)
+      return "moves a corner that is not there";
+    Triangle& face = faces_[corner / 3];
+    const auto& by = r_.pairs[pair_ + r_.moved_by[moved_]];
+    if (face[corner % 3] != by.parent) return "moves a corner that is not the parent's";
+    face[corner % 3] = by.child;
+    if (count(face, split.child) != 1 || count(face, split.parent) != 0)
+      return "moves a corner of a face that has the edge";
+    ++n_corners_[split.child], --n_corners_[split.parent];
+  }
+  return "";
+}
+
+std::string SplitChecker::bear_faces(const VertexSplit& split) {
+  for (std::uint32_t k = 0; k < split.n_born; ++k, ++born_) {
+    const std::uint32_t f = r_.born[born_];
+    if (count(faces_[f], split.child) != 1 || count(faces_[f], split.parent) != 1)
+      return "brings a face that has not the edge";
+    is_alive_[f] = true;
+    for (const std::uint32_t wedge : faces_[f]) ++n_corners_[vertex_of(wedge)];
+  }
+  return "";
+}
+
 std::string check_splits(const ProgressiveRecord& r) {
-  std::vector<Triangle> faces = r.faces;
-  std::vector<bool> is_alive(faces.size(), true);
-  for (const std::uint32_t face : r.born) {
-    if (face >= faces.size() || !is_alive[face]) return "a face comes twice, or is none";
-    is_alive[face] = false;
-  }
-  std::size_t born = 0, moved = 0, pair = 0;
-  for (std::size_t i = 0; i < r.splits.size(); ++i) {
-    const VertexSplit& split = r.splits[i];
-    const std::string where = "split " + std::to_string(i);
-    if (std::max(split.child, split.parent) >= r.attributes.positions.size())
-      return where + " names a vertex out of range";
-    for (std::uint32_t k = 0; k < split.n_moved; ++k, ++moved) {
-      const std::uint32_t corner = r.moved[moved];
-      if (corner / 3 >= faces.size() || !is_alive[corner / 3] || r.moved_by[moved] >= split.n_pairs)
-        return where + " moves a corner that is not there";
-      const auto& by = r.pairs[pair + r.moved_by[moved]];
-      std::uint32_t& wedge = faces[corner / 3][corner % 3];
-      if (wedge != by.parent) return where + " moves a corner that is not the parent's";
-      wedge = by.child;
-    }
-    for (std::uint32_t k = 0; k < split.n_born; ++k) is_alive[r.born[born++]] = true;
-    pair += split.n_pairs;
-  }
+  SplitChecker checker(r);
+  if (std::string wrong = checker.check_base(); !wrong.empty()) return wrong;
+  for (std::size_t i = 0; i < r.splits.size(); ++i)
+    if (const std::string wrong = checker.check(r.splits[i]); !wrong.empty())
+      return "split " + std::to_string(i) + " " + wrong;
   return "";
 }
 
