@@ -346,6 +346,81 @@ TEST(ProgressiveMesh, HalfEdgeLtIsRefused) {
   EXPECT_THROW(build_progressive_mesh(make_octahedron(), options), UsageError);
 }
 
+// A flat fan of triangles that share no vertices: its apex may go first.
+TriMesh make_soup(std::uint32_t n) {
+  TriMesh soup;
+  for (std::uint32_t i = 0; i < n; ++i) {
+    soup.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+    soup.positions.emplace_back(0, 0, 0);
+    for (const std::uint32_t k : {i, (i + 1) % n}) {
+      const double angle = 6.283185307179586 * k / n;
+      soup.positions.emplace_back(std::cos(angle), std::sin(angle), 0);
+    }
+  }
+  return soup;
+}
+
+// Its apex is as many wedges as triangles, and one byte tells 256 apart.
+TEST(ProgressiveMesh, SoupsFanOfManyTriangles) {
+  for (const std::uint32_t n : {255u, 256u, 257u, 300u})
+    for (const Placement placement : {Placement::half, Placement::full}) {
+      SCOPED_TRACE(n);
+      const TriMesh soup = make_soup(n);
+      BuildOptions options;
+      options.placement = placement;
+      const BuildResult built = build_progressive_mesh(soup, options);
+      EXPECT_EQ(check_record(built.record), "");
+      ProgressiveMesh pm(built.record);
+      EXPECT_LT(pm.n_faces(), 10u);
+      pm.set_level(pm.n_splits());
+      EXPECT_EQ(pm.extract().triangles, soup.triangles);
+    }
+}
+
+// On a strip of three faces, wedge w at vertex w:  1---3---4
+//                                                 | / \ | /
+// each of these splits is no collapse of an edge. 0-----2
+TEST(ProgressiveMesh, SplitsThatAreNoCollapsesAreRefused) {
+  TriMesh strip;
+  strip.positions = {{0, 0, 0}, {0, 1, 0}, {2, 0, 0}, {1, 1, 0}, {3, 1, 0}};
+  strip.triangles = {{0, 3, 1}, {0, 2, 3}, {2, 4, 3}};
+  BuildOptions options;
+  options.target_faces = 2;
+  const ProgressiveRecord whole = build_progressive_mesh(strip, options).record;
+  ASSERT_EQ(whole.splits.size(), 1u);
+  ASSERT_EQ(check_record(whole), "");
+  const auto check = [&](auto&& change) {
+    ProgressiveRecord wrong = whole;
+    change(wrong);
+    return check_record(wrong);
+  };
+  const VertexSplit split = whole.splits[0];
+  EXPECT_EQ(check([&](auto& r) { r.splits[0].child = split.parent; }),
+            "split 0 has a child that is there already");
+  EXPECT_EQ(check([&](auto& r) { std::swap(r.splits[0].child, r.splits[0].parent); }),
+            "split 0 has a child that is there already");
+  EXPECT_EQ(check([&](auto& r) { r.pairs.at(0).child = split.parent; }),
+            "split 0 has a pair of wedges that are not the child's and the parent's");
+  EXPECT_EQ(check([&](auto& r) { r.splits[0].parent = (split.parent + 1) % 5; }).substr(0, 7),
+            "split 0");
+  EXPECT_EQ(check([&](auto& r) {
+              r.faces[r.born.at(0)] = {0, 2, 3};
+              r.faces[r.born[0]][0] = split.child;
+              r.faces[r.born[0]][1] = split.child;
+            }),
+            "split 0 brings a face that has not the edge");
+  const auto add_wedge = [&](auto& r) {  // of the child, with texture coordinates
+    r.extra_sources.push_back(split.child);
+    r.texcoords.resize(6);
+  };
+  EXPECT_EQ(check(add_wedge), "");
+  EXPECT_EQ(check([&](auto& r) {
+              add_wedge(r);
+              r.pairs.at(0).child = 5;
+            }),
+            "split 0 has a pair of wedges that meet at no face");
+}
+
 TEST(PmFile, ReadsBack) {
   const TemporaryFolder folder;
   for (const Way& way : kWays) {
