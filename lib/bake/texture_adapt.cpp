@@ -90,11 +90,13 @@ class TextureAdapter<Texel>::Engine {
 
     void add_span(const Span& span) { spans[n_spans++] = span; }
     // For all texels of a triangle and what is written beyond; returns the first's.
-    Texel* make_room(const TexelTriangle& p) {
+    // Of a triangle that reaches far out of the image, for those within.
+    Texel* make_room(const TexelTriangle& p, int width_px, int height_px) {
       const auto [x0, x1] = std::minmax({p[0].x, p[1].x, p[2].x});
       const auto [y0, y1] = std::minmax({p[0].y, p[1].y, p[2].y});
-      const auto n_rows = static_cast<std::size_t>(y1 - y0) + 2;
-      const auto n = n_rows * (static_cast<std::size_t>(x1 - x0) + 2) + 8;
+      const auto n_rows = static_cast<std::size_t>(std::min(float(height_px), y1 - y0)) + 2;
+      const auto n =
+          n_rows * (static_cast<std::size_t>(std::min(float(width_px), x1 - x0)) + 2) + 8;
       if (spans.size() < n_spans + n_rows) spans.resize(2 * (n_spans + n_rows));
       if (values.size() < n_values + n) {
         values.resize(2 * (n_values + n));
@@ -238,7 +240,7 @@ template <typename Texel>
 void TextureAdapter<Texel>::Engine::place_cell(const Cell& cell, Scratch& scratch) const {
   const TexelTriangle to = cell.to();
   const TexelAffine source = make_affine(to, cell.from());
-  scratch.make_room(to);
+  scratch.make_room(to, width_px_, height_px_);
   std::size_t at = scratch.n_values;
   Span* span = scratch.spans.data() + scratch.n_spans;
   const Places places = scratch.places(0);
@@ -274,7 +276,7 @@ void TextureAdapter<Texel>::Engine::gather_cell(const Cell& cell, Scratch& scrat
   const int w = width_px_, h = height_px_;
   const TexelTriangle to = cell.to();
   const TexelAffine source = make_affine(to, cell.from());
-  Texel* values = scratch.make_room(to);
+  Texel* values = scratch.make_room(to, w, h);
   Span* span = scratch.spans.data() + scratch.n_spans;
   const auto owner = static_cast<std::uint16_t>(kInsideChart | cell.name);
   for_each_span(
@@ -320,7 +322,7 @@ void TextureAdapter<Texel>::Engine::gather_gutter(const Cell& cell, std::size_t 
   };
   for (const TexelTriangle& half :
        {TexelTriangle{strip[0], strip[1], strip[2]}, {strip[0], strip[2], strip[3]}}) {
-    scratch.make_room(half);
+    scratch.make_room(half, w, h);
     for_each_span(half, w, h, [&](int x0, int x1, int y) {
       scratch.add_span({static_cast<std::uint32_t>(offset(x0, y)),
                         static_cast<std::uint16_t>(x1 - x0), cell.name});

@@ -1,7 +1,6 @@
 #include "pm/adapt_file.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "base/file.h"
 #include "base/json.h"
@@ -29,8 +28,7 @@ std::string find_fault(const AdaptationLog& log, const ProgressiveRecord& record
   for (const std::uint32_t chart : log.charts)
     if (chart >= log.n_charts) return "names a chart that is not there";
   for (const AdaptationPoint& point : log.points)
-    if (!std::isfinite(point.before.x + point.before.y + point.after.x + point.after.y))
-      return "has a point that is not finite";
+    if (!is_within_reach(point)) return "has a point far outside the texture, or no number";
   for (std::size_t step = 0; step < n_steps; ++step) {
     const Adaptation adaptation = log.of(step);
     for (const AdaptationTriangle& t : adaptation.triangles)

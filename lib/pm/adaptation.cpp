@@ -234,8 +234,7 @@ LogBuilder::Step LogBuilder::add(bool is_laid, bool is_move) {
 bool LogBuilder::add_points() {
   for (const TexturePoint& point : map_.overlay().texture_points()) {
     log_.points.push_back({glm::vec2(point.before), glm::vec2(point.after)});
-    const glm::vec2 sum = log_.points.back().before + log_.points.back().after;
-    if (!std::isfinite(sum.x + sum.y)) return false;
+    if (!is_within_reach(log_.points.back())) return false;
   }
   return true;
 }
@@ -323,6 +322,13 @@ void LogBuilder::mark_borders() {
 }
 
 }  // namespace
+
+bool is_within_reach(const AdaptationPoint& point) {
+  constexpr float kReach = 1e4f;  // pictures
+  const auto is_near = [](float x) { return std::abs(x) <= kReach; };
+  return is_near(point.before.x) && is_near(point.before.y) && is_near(point.after.x) &&
+         is_near(point.after.y);
+}
 
 LevelCharts make_level_charts(const ProgressiveMesh& mesh, const AdaptationLog& log) {
   LevelCharts out;

@@ -17,6 +17,8 @@ namespace viewcell {
 struct AdaptationPoint {
   glm::vec2 before, after;  ///< the collapse
 };
+/// Both are numbers, so near the texture that their texels in a map of any size can be counted.
+bool is_within_reach(const AdaptationPoint& point);
 
 /// Half of a cell, which lies in one face before and in one face after the collapse: the texture is
 /// affine from one to the other. It turns the same way in both.
