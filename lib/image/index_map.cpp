@@ -120,12 +120,14 @@ IndexMap gather(MemoryInput& picture, const std::string& file, const Convert& co
   return map;
 }
 
-void check_finite(const IndexMap& map, const std::string& file) {
+void check_numbers(const IndexMap& map, const std::string& file) {
+  constexpr float kMost = 1e30f;  // between such numbers samples stay finite
   for (int y = 0; y < map.height_px; ++y)
     for (int x = 0; x < map.width_px; ++x)
-      if (const glm::vec2& uv = map.at(x, y); !std::isfinite(uv.x) || !std::isfinite(uv.y))
+      if (const glm::vec2& uv = map.at(x, y);
+          !(std::abs(uv.x) <= kMost) || !(std::abs(uv.y) <= kMost))
         throw InputError(file, "texel " + std::to_string(x) + ", " + std::to_string(y),
-                         "holds a number that is not finite");
+                         "holds a number that is not finite, or beyond 1e30");
 }
 
 }  // namespace
@@ -150,7 +152,7 @@ IndexMap read_index_map(const fs::path& path, std::string* hash, std::string* la
     return gather<std::uint16_t>(picture, file,
                                  [](std::uint16_t x) { return static_cast<float>(x / 65535.0); });
   IndexMap map = gather<float>(picture, file, [](float x) { return x; });
-  check_finite(map, file);
+  check_numbers(map, file);
   return map;
 }
 

@@ -33,7 +33,7 @@ void write_index_map(const std::filesystem::path& file, const IndexMap& map,
 /// bits. An EXR gives its data window. hash: hash_hex of the file's bytes; label: "" where there is
 /// none; if wanted.
 /// Size, channels and their types are checked before pixels are read. Throws InputError for all
-/// else, and for numbers that are not finite.
+/// else, and for numbers that are not finite or beyond 1e30.
 IndexMap read_index_map(const std::filesystem::path& file, std::string* hash = nullptr,
                         std::string* label = nullptr);
 

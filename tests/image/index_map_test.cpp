@@ -168,6 +168,10 @@ TEST(IndexMapFile, NumbersThatAreNotFiniteAreNamed) {
       EXPECT_THROW(write_index_map(folder / "b.exr", map), BugError);
     }
   }
+  // What lies between two of these is no number.
+  write_samples<float>(folder / "a.exr", 2, OIIO::TypeFloat, {0, 0, 0, 3e38f, 0, -3e38f});
+  EXPECT_NE(error_of_reading(folder / "a.exr").find("texel 1, 0: holds a number that is not"),
+            std::string::npos);
   EXPECT_FALSE(fs::exists(folder / "b.exr"));
 }
 
