@@ -3,12 +3,15 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <span>
+#include <string>
 #include <type_traits>
 
 #include "bake/adapt_packs.h"
 #include "bake/gl_adapt_batch.h"
 #include "bake/gl_adapt_shaders.h"
+#include "base/error.h"
 #include "gl/context.h"
 #include "gl/filter_precision.h"
 #include "gl/framebuffer.h"
@@ -60,6 +63,14 @@ Image<Pixel> read_texture(const Gl& gl, const GlTexture& texture, const TexelFor
   return flip_rows(rows_up);
 }
 
+// GL counts what it reads back in 31 bits, and llvmpipe crashes on a texture that large.
+void check_bytes(std::size_t n) {
+  if (n > std::numeric_limits<GLsizei>::max())
+    throw MachineError("GL: a texture of " + std::to_string(n) +
+                       " bytes is beyond what GL reads back (2 GiB): take fewer texels, or "
+                       "the engine cpu");
+}
+
 // While it lives, fragments are written whatever their depth and side.
 class FlatDrawing {
  public:
@@ -109,6 +120,7 @@ class GlTextureAdapter<Texel>::Engine {
         owned_array_(gl),
         builder_(log, owners_up, kIsIndex, options.copies_boxes.value_or(is_software_renderer(gl))),
         n_collapsed_(n_collapsed) {
+    check_bytes(image.pixels.size() * sizeof(Texel));
     const Image<Texel> rows_up = flip_rows(image);
     for (GlFramebuffer& target : targets_) {
       target = GlFramebuffer(gl, width_px_, height_px_,

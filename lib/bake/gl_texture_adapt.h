@@ -37,7 +37,8 @@ template <typename Texel>
 class GlTextureAdapter {
  public:
   /// As for TextureAdapter. gl and log are kept by reference and must outlive it. Throws
-  /// MachineError when a side is beyond the driver's limit. Leaves GL's state as gl/context.h says.
+  /// MachineError when a side is beyond the driver's limit, or the texels take 2 GiB. Leaves GL's
+  /// state as gl/context.h says.
   GlTextureAdapter(const Gl& gl, const AdaptationLog& log, const Image<Texel>& image,
                    const LevelCharts& charts, std::size_t n_collapsed = 0,
                    const GlAdaptOptions& options = {});
