@@ -119,6 +119,9 @@ CollapseCounts run_metric(CollapseMesh& mesh, WedgeMesh& wedges,
 }
 
 void check_options(const TriMesh& mesh, const BuildOptions& options) {
+  if (options.charts_apart_px > 0 && mesh.texcoords.empty())
+    throw InputError(options.name, "",
+                     "has no texture coordinates, so no charts that could be kept apart");
   if (options.metric == MetricKind::lt && options.placement == Placement::half)
     throw UsageError("metric lt places vertices anew: it needs --placement full");
   if (options.metric == MetricKind::mapping && options.placement == Placement::full) {
