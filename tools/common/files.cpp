@@ -58,6 +58,18 @@ void check_files(const std::vector<NamedFile>& inputs, const std::vector<NamedFi
   }
 }
 
+void check_places(const std::vector<NamedFile>& outputs) {
+  for (const NamedFile& output : outputs) {
+    if (output.path.empty() || is_special(output.path)) continue;
+    std::error_code error;
+    if (fs::is_directory(output.path, error))
+      throw MachineError(output.path + ": cannot write: is a folder");
+    const fs::path folder = fs::path(output.path).parent_path();
+    if (!folder.empty() && !fs::is_directory(folder, error))
+      throw MachineError(output.path + ": cannot write: '" + folder.string() + "' is no folder");
+  }
+}
+
 void check_ending(const NamedFile& output, const std::vector<std::string>& endings,
                   const std::string& what) {
   if (output.path.empty() || is_special(output.path)) return;

@@ -16,6 +16,10 @@ struct NamedFile {
 /// are one file, or when two of either are standard input or output. Devices are no such files.
 void check_files(const std::vector<NamedFile>& inputs, const std::vector<NamedFile>& outputs);
 
+/// Throws MachineError when an output cannot be made where it is to go: its folder is not there, or
+/// it is a folder itself. To say so before the work, not after it.
+void check_places(const std::vector<NamedFile>& outputs);
+
 /// Throws UsageError unless the output ends in one of the endings (".ply"; case does not count), is
 /// "-", or is a device or a pipe. what: what is written, with its article: "a PLY".
 void check_ending(const NamedFile& output, const std::vector<std::string>& endings,

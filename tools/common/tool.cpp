@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <charconv>
+#include <csignal>
 #include <cstdio>
 #include <iostream>
 #include <new>
@@ -68,6 +69,8 @@ Tool::Tool(const std::string& name, const std::string& description, const std::s
 
 void Tool::add_output(const std::string& description, bool required) {
   CLI::Option* option = app_.add_option("-o,--output", common_.output, description);
+  option->check(
+      [](const std::string& name) { return name.empty() ? "is no name" : std::string(); });
   if (required) option->required();
 }
 
@@ -76,6 +79,7 @@ int Tool::main(int argc, char** argv, const std::function<int()>& run) {
     std::cerr << name_ << ": " << one_line(text) << "\n";
     return code;
   };
+  std::signal(SIGXFSZ, SIG_IGN);  // ulimit -f: a write that fails, not an end without a word
   try {
     app_.parse(argc, argv);
     return run();

@@ -165,8 +165,9 @@ void finish_build(Tool& tool, PmeshArguments& a) {
   check_metric_options(*tool.app().get_subcommand("build"), a);
   check_texture_options(a);
   check_ending({"-o", common.output}, {".pm"}, "a progressive mesh");
-  check_files({{"the mesh that is read", a.model}},
-              {{"-o", common.output}, {"--json", common.json_file}});
+  const std::vector<NamedFile> outputs{{"-o", common.output}, {"--json", common.json_file}};
+  check_files({{"the mesh that is read", a.model}}, outputs);
+  check_places(outputs);
 }
 
 void check_extract(const Tool& tool, const PmeshArguments& a) {

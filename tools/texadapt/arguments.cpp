@@ -61,7 +61,9 @@ void declare_engine(CLI::App& app, TexadaptArguments& a) {
                  "finest mesh, to compare with)")
       ->check(CLI::IsMember({"cpu", "gl", "rebake"}))
       ->capture_default_str();
-  app.add_option("--gl", a.gl, "of --engine gl: osmesa | egl")->capture_default_str();
+  app.add_option("--gl", a.gl, "of --engine gl: osmesa | egl")
+      ->check(CLI::IsMember({"osmesa", "egl"}))
+      ->capture_default_str();
   app.add_option("--texels", a.texel_name,
                  "of the indexing map: float | half | 16 | 8 bits; or texture: adapt the texture "
                  "itself, which blurs")
@@ -187,6 +189,7 @@ void check_all_files(const Tool& tool, const TexadaptArguments& a) {
     for (const FurtherTexture& f : a.further) outputs.push_back({"--also", a.name_at(f.to, level)});
   }
   check_files(inputs, outputs);
+  check_places(outputs);
   if (!a.mesh.empty()) check_ending({"--mesh", a.mesh}, {".ply", ".obj"}, "a mesh");
   if (!a.index_map.empty())
     check_ending({"--index-map", a.index_map}, {".exr", ".tif", ".tiff"}, "an indexing map");
