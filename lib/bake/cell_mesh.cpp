@@ -59,7 +59,7 @@ std::vector<bool> find_back_faces(const BakeScene& bake, CellId cell, const Scen
                                   const std::vector<glm::vec3>& positions,
                                   const std::vector<Triangle>& triangles) {
   if (bake.scene.materials[static_cast<std::size_t>(object.material)].double_sided)
-    return std::vector<bool>(triangles.size(), false);  // trap 28
+    return std::vector<bool>(triangles.size(), false);  // both sides are seen
   TriMesh world;
   world.positions = positions;
   return find_regional_back_faces(world, triangles, prism_of(bake.cells, cell));

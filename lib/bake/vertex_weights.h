@@ -30,7 +30,8 @@ struct ClassifiedView {
 
 /// The category of the pixel that shows the point, or background when the point is hidden there.
 /// A point is shown when in the 3 x 3 pixels around its projection one has a depth that the point
-/// agrees with, allowing for that pixel's slope (trap 15); the pixel that it falls on comes first.
+/// agrees with, allowing for that pixel's slope; the pixel that it falls on comes first. By
+/// that one alone vertices of silhouettes would land on the background.
 PixelCategory category_at(const ClassifiedView& view, const glm::dvec3& world);
 
 /// Fills vertices.weights and vertices.views from positions. A vertex all of whose triangles are

@@ -115,7 +115,7 @@ float ViewMetric::offset(std::uint32_t v) const {
   return static_cast<float>(std::clamp(t, -most, most));
 }
 
-// A triangle whose corners share a view must not come to share none (trap 16).
+// A triangle whose corners share a view must not come to share none: no view could texture it.
 bool ViewMetric::allows(const CollapseMesh& mesh, std::uint32_t u, std::uint32_t v) const {
   if (!options_.keep_common_views) return true;
   const auto& views = vertices_.views;

@@ -32,7 +32,7 @@ struct ViewMetricOptions {
 /// Follows: [Chen06 5.2.1], paper(u, v) = (1.5 - n_u . n_v)^2 l (w_u + w_v); the vertex of smaller
 /// weight collapses. A vertex keeps its own normal, weight and views when others collapse into it.
 ///
-/// Differs (trap 14, no term bounds deviation): cost(u, v) = max(paper, T_l drift / max_drift), so
+/// Differs (no term bounds deviation): cost(u, v) = max(paper, T_l drift / max_drift), so
 /// that a collapse ends at T_l by either. drift, in px, is rms (P / 50)^(1/4): rms the root mean
 /// square of v's distances d to the planes of the triangles that it comes to stand for,
 /// sqrt(sum A s^2 d^2 / sum A s), P = sum A s in px^2, with A their areas and s how much a

@@ -14,7 +14,7 @@ enum class PixelCategory : std::uint8_t {
 };
 
 /// Tolerances of window-space depth, for a near plane at `near` and a far plane at infinity:
-/// window depth = 1 - near / depth, so differences are near * difference of 1/depth (trap 4). They
+/// window depth = 1 - near / depth, so differences are near * difference of 1/depth. They
 /// stay what they are whatever planes the player draws with.
 struct CategoryOptions {
   double tc0 = 3.4e-4;
@@ -23,7 +23,7 @@ struct CategoryOptions {
 };
 
 /// Follows: [Chen06 5.2.1]. Differs: the C0 test compares with the depth that each side's own slope
-/// predicts, so that a plane seen at a grazing angle is no silhouette (trap 17).
+/// predicts, so that a plane seen at a grazing angle is no silhouette.
 Image<PixelCategory> classify_pixels(const CaptureTile& tile, const CategoryOptions& options = {});
 
 }  // namespace viewcell

@@ -65,7 +65,7 @@ double focal_of_face(int resolution_px);
 /// The view of an object (its points in the world) from an eye: on the plane of the side face that
 /// the middle of its points lies behind, at the given density; or, when it
 /// reaches more than kTurnDeg from that face's axis, on a plane turned to its middle, at the same
-/// density there (trap 3). Nothing when it reaches more than kMostDeg from that axis too: the eye
+/// density there. Nothing when it reaches more than kMostDeg from that axis too: the eye
 /// is then inside the object or all but touches it.
 std::optional<ViewedObject> choose_view(const glm::dvec3& eye, std::span<const glm::dvec3> points,
                                         const CaptureDensity& density);

@@ -13,7 +13,7 @@ namespace viewcell {
 
 /// Flat-topped hexagons of circumradius size [Chen06 5.2.1]: columns are 1.5 size apart in x, rows
 /// sqrt(3) size apart in y, odd columns half a row up. Cell (0, 0) is centred on the area's low
-/// corner, so a point at the area's edges is inside some cell (trap 12).
+/// corner, so a point at the area's edges is inside some cell.
 struct HexGrid {
   glm::dvec2 origin{0};  ///< the centre of cell (0, 0)
   double size = 50;

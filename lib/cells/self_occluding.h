@@ -10,8 +10,8 @@ namespace viewcell {
 /// s = sqrt(3) c l / (2 d (d + l)) * image_res, in pixels [Chen06 5.2.1]: the widest hole that an
 /// eye anywhere in the cell may see in what the cell's centre sees of an object. c: the cell's
 /// size; d > 0: from the centre to the object's nearest point; l: the object's depth along that
-/// ray, of its polygons that are front-facing to the cell (trap 7). Infinite for d <= 0.
-/// Known limits (trap 18): the eye's advance, obliquity and height are not in it.
+/// ray, of its polygons that are front-facing to the cell. Infinite for d <= 0.
+/// Known limits: the eye's advance, obliquity and height are not in it.
 double self_occluding_error_px(double c, double d, double l, double image_res);
 
 /// d and l of an object seen from an eye.

@@ -27,7 +27,7 @@ struct ImageDistance {
   /// picture that is smaller. NaN when not asked for.
   double ssim = 0;
   /// Power of the tested picture over power of the difference, 10 log10 [Chen03 4.1]; within
-  /// +-100. Not PSNR: it depends on how bright the picture is (trap 9).
+  /// +-100. Not PSNR: it depends on how bright the picture is.
   double snr_db = kIdenticalDb;
   double rms = 0;      ///< square root of mse, in code values [NSC01]
   double max_abs = 0;  ///< largest difference of any of R, G, B, in code values

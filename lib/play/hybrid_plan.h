@@ -20,7 +20,7 @@ struct ViewChoice {
 
 /// By the angles at the object's middle between the eye and each available view [Chen06 5.2.2]:
 /// weight 1 / angle - 1 / third angle, so that a view's weight vanishes before the choice changes
-/// and nothing pops (trap 20). Differs: the weights' contrast is raised by half, so that the second
+/// and nothing pops. Differs: the weights' contrast is raised by half, so that the second
 /// view fades out altogether where the first is far better, and most draws fetch from one view.
 ViewChoice choose_views(const glm::dvec3& eye, const glm::dvec3& middle,
                         const std::array<glm::dvec3, kViews>& centres, unsigned available);

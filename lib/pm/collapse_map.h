@@ -29,7 +29,7 @@ struct WedgeMove {
 ///
 /// Follows: [Chen06 3.2.2]. Differs: for Matching::nearest, which new face takes u is decided by
 /// where the nearest point is, and crossings follow from that (in the paper the texture decides
-/// which edges cross, and the nearest point may lie in another face than the cells say, trap 19):
+/// which edges cross, and the nearest point may lie in another face than the cells say):
 /// so every cell lies in one old and one new face, and a maximum over corners is one over the cell.
 /// On a boundary of the mesh or of a texture chart u goes to the new boundary edge.
 ///

@@ -14,7 +14,7 @@ namespace viewcell {
 ///
 /// In the texture corners keep their order along each edge and some distance from each other, so
 /// that no cell folds or vanishes where the faces do not. Differs from [Chen06 3.2.2], where points
-/// that are nearest may pass each other (trap 10).
+/// that are nearest may pass each other and cells overlap.
 class FanOverlay {
  public:
   /// What is made of cells beside what MapCell has.

@@ -12,8 +12,8 @@
 namespace viewcell {
 
 /// What cost() is made of: the largest distance of matched points, or the mean of their squares
-/// over the input's surface [Chen06 4.2.2 has a mean over texels instead, which weighs texture
-/// area, trap 27].
+/// over the input's surface [Chen06 4.2.2 has a mean over texels instead, which weighs a face by
+/// its area in the texture].
 enum class Measure { max, mean };
 
 struct MappingOptions {

@@ -4,7 +4,7 @@
 
 namespace viewcell {
 
-// Follows: [Chen06 5.2.1], with the sign turned as trap 1 says: the vector goes from the corner to
+// Follows: [Chen06 5.2.1], with the printed sign turned: the vector goes from the corner to
 // the triangle, so it agrees with an outward normal where the face is turned away.
 bool is_back_facing(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c,
                     std::span<const glm::dvec3> region, double margin) {

@@ -111,7 +111,7 @@ TEST(ViewMetric, PairsOfAnMVMeshShareAViewOrNobodySeesThem) {
       }
 }
 
-// Trap 16, by making the collapse: no triangle that shared a view comes to share none.
+// By making the collapse: no triangle that shared a view comes to share none.
 TEST(ViewMetric, AllowsWhatKeepsEveryTrianglesCommonView) {
   // u = 0 amid a hexagon 1..6
   std::vector<glm::vec3> positions{{100, 0, 0}};

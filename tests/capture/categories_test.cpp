@@ -42,7 +42,7 @@ Scene make_scene_with(TriMesh mesh) {
   return make_scene_of(std::move(mesh));
 }
 
-// Trap 17: a plane has silhouettes only where it ends, however steeply it is seen.
+// A plane has silhouettes only where it ends, however steeply it is seen.
 TEST(ClassifyPixels, PlaneAtAGrazingAngleHasNoInnerEdges) {
   for (const double height : {1.0, 4.0, 18.0}) {
     SCOPED_TRACE(height);
@@ -128,7 +128,7 @@ TEST(ClassifyPixels, RidgeIsASharpEdge) {
   }
 }
 
-// Trap 4: what is behind the object, or filled in there, does not matter; nor does the unit.
+// What is behind the object, or filled in there, does not matter; nor does the unit.
 TEST(ClassifyPixels, DependsOnTheObjectAlone) {
   const Scene scene = make_scene_of(make_noisy_torus(40, 20, 0.5, 1));
   const CaptureTile tile = capture(scene, {50, 20, 8});

@@ -93,7 +93,7 @@ TEST(ChooseView, LooksThroughTheFaceOfTheObjectsMiddle) {
   }
 }
 
-// Trap 3: tall, near and straddling objects too, points of their sides included.
+// Tall, near and straddling objects too, points of their sides included.
 TEST(ChooseView, CropHoldsAllOfTheObject) {
   std::size_t n_turned = 0, n_overflowing = 0, n_viewed = 0;
   for (std::uint64_t seed = 1; seed <= 1000; ++seed) {

@@ -13,7 +13,7 @@ namespace {
 
 const double kSqrt3 = std::sqrt(3.0);
 
-// The paper's 22 x 24 and 11 x 12 leave a strip uncovered (trap 12).
+// The paper's 22 x 24 and 11 x 12 leave a strip uncovered.
 TEST(HexGrid, CoversThePapersParkInFull) {
   const Area park{{0, 0}, {1650, 2035}};
   const HexGrid fifty = make_grid(park, 50), hundred = make_grid(park, 100);

@@ -126,7 +126,7 @@ TEST(Metrics, CoverageIsWhereEitherPictureHasAnObject) {
   EXPECT_DOUBLE_EQ(d.mse, 10.4);
 }
 
-// SNR takes its signal from the tested picture, PSNR does not care which is which (trap 9).
+// SNR takes its signal from the tested picture, PSNR does not care which is which.
 TEST(Metrics, SnrIsOfTheTestedPicture) {
   const ImageRgba8 dark = opaque_gray(5, 5, 50), bright = opaque_gray(5, 5, 100);
   EXPECT_NEAR(compare_images(dark, bright).snr_db, 20 * std::log10(2.0), 1e-9);

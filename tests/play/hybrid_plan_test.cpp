@@ -79,7 +79,7 @@ double most_change(const ViewChoice& a, const ViewChoice& b) {
   return most;
 }
 
-// Trap 20: whichever way the eye walks, no view's weight jumps, also where the choice changes. Near
+// Whichever way the eye walks, no view's weight jumps, also where the choice changes. Near
 // the line through a centre weights are steep: a step that changes much is halved until it is short
 // against the least angle that counts. A jump would stay as large.
 TEST(ChooseViews, NothingPopsAlongAPath) {

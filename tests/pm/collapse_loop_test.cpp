@@ -103,7 +103,7 @@ TEST(CollapseLoop, RefusalIsReplacedByTheNextTarget) {
   EXPECT_EQ(std::count(islands.metric.made.begin(), islands.metric.made.end(), Edge(u, u - 13)), 1);
 }
 
-// An illegal edge at the top does not end the loop (trap 14): only boundary vertices are cheap, and
+// An illegal edge at the top does not end the loop: only boundary vertices are cheap, and
 // only inward.
 TEST(CollapseLoop, IllegalTopDoesNotEndIt) {
   const TriMesh sphere = make_noisy_sphere(2, 0.1, 1);

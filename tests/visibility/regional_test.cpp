@@ -45,7 +45,7 @@ bool is_front_facing(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3&
   return glm::dot(glm::cross(b - a, c - a), eye - a) > 0;
 }
 
-// Counter-clockwise seen from -x, so its outward normal is -x: trap 1's sign.
+// Counter-clockwise seen from -x, so its outward normal is -x: the sign that the paper has wrong.
 //      c
 //     / \        eye at -x sees the front, at +x the back
 //    a---b
@@ -68,7 +68,7 @@ TEST(IsBackFacing, TriangleWithoutAreaIsBackFacing) {
   EXPECT_TRUE(is_back_facing({1, 1, 1}, {2, 2, 2}, {3, 3, 3}, make_prism({10, 0}, 2, -1, 1)));
 }
 
-// A roof that slopes away: its plane passes over the low corners and under the high ones (trap 2).
+// A roof that slopes away: its plane passes over the low corners and under the high ones.
 TEST(IsBackFacing, SixCornersAtOneHeightWouldCullWhatTheOthersSee) {
   const glm::dvec3 a(30, -5, 18), b(30, 5, 18), c(40, 0, 18);  // level, upward
   const Corners low = make_prism({0, 0}, 10, 16, 16), both = make_prism({0, 0}, 10, 16, 20);
