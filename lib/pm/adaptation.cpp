@@ -156,7 +156,9 @@ void LogBuilder::move(std::uint32_t v, const glm::vec3& place, std::span<const W
 
 // The child goes; each of its wedges becomes one of the parent's.
 void LogBuilder::merge(const VertexSplit& split) {
-  table_.match(mesh_, split.child, split.parent);
+  if (!table_.match(mesh_, split.child, split.parent))
+    throw InputError("progressive mesh", "split " + std::to_string(coarser_.level()),
+                     "is no collapse that keeps to the charts of its texture");
   mesh_.collapse(split.child, split.parent, &trace_);
   table_.apply(trace_);
   map_.forget();

@@ -75,7 +75,8 @@ struct LevelCharts {
 LevelCharts make_level_charts(const ProgressiveMesh& mesh, const AdaptationLog& log);
 
 /// Lays the cells of every collapse again, points matched by nearness as in the mapping metric. The
-/// record must have texture coordinates and be sound (see check_record). About 3 us a step.
+/// record must have texture coordinates and be sound (see check_record). Throws InputError for a
+/// split that does not keep to texture charts. About 3 us a step.
 /// Follows: [Chen06 3.2.2].
 AdaptationLog make_adaptation_log(const ProgressiveRecord& record, const Progress& progress = {});
 

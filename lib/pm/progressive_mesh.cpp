@@ -191,7 +191,6 @@ class SplitChecker {
     return std::count_if(face.begin(), face.end(),
                          [&](std::uint32_t wedge) { return vertex_of(wedge) == vertex; });
   }
-  bool is_born_with(const VertexSplit& split, const ProgressiveRecord::WedgePair& pair) const;
   std::string check_pairs(const VertexSplit& split) const;
   std::string move_corners(const VertexSplit& split);
   std::string bear_faces(const VertexSplit& split);
@@ -225,24 +224,11 @@ std::string SplitChecker::check(const VertexSplit& split) {
   return wrong;
 }
 
-// Where wedges have texture coordinates, two of them meet at a face with the edge.
-bool SplitChecker::is_born_with(const VertexSplit& split,
-                                const ProgressiveRecord::WedgePair& pair) const {
-  const auto has = [](const Triangle& face, std::uint32_t wedge) {
-    return std::find(face.begin(), face.end(), wedge) != face.end();
-  };
-  for (std::size_t i = born_; i < born_ + split.n_born; ++i)
-    if (has(faces_[r_.born[i]], pair.child) && has(faces_[r_.born[i]], pair.parent)) return true;
-  return false;
-}
-
 std::string SplitChecker::check_pairs(const VertexSplit& split) const {
   for (std::size_t i = pair_; i < pair_ + split.n_pairs; ++i) {
     const auto& pair = r_.pairs[i];
     if (vertex_of(pair.child) != split.child || vertex_of(pair.parent) != split.parent)
       return "has a pair of wedges that are not the child's and the parent's";
-    if (!r_.texcoords.empty() && !is_born_with(split, pair))
-      return "has a pair of wedges that meet at no face";
   }
   return "";
 }

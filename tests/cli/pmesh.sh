@@ -135,6 +135,16 @@ awk '/^vt/ { next } /^f/ { n += 3; print "vt", n, 0; print "vt", n + 1, 0; print
 expect 5 "$pmesh" build cut.obj --stop-at 100 -o cut.pm
 grep -q "by chart.*; --no-texture leaves charts out" "$log/err" || fail "not held back: $(cat "$log/err")"
 expect 0 "$pmesh" build cut.obj --stop-at 100 --no-texture -o uncut.pm
+
+# --flip-v turns v, and turns it back.
+expect 0 "$pmesh" build relief.obj --metric mapping -o straight.pm
+expect 0 "$pmesh" build relief.obj --metric mapping --flip-v -o turned.pm
+expect 0 "$pmesh" extract turned.pm --faces 512 -o turned.obj
+cmp -s straight.pm turned.pm && fail "--flip-v does nothing"
+expect 0 "$pmesh" build turned.obj --metric mapping --flip-v -o again.pm
+expect 0 "$pmesh" extract again.pm --faces 512 -o again.obj
+expect 0 "$pmesh" extract straight.pm --faces 512 -o straight.obj
+cmp -s <(grep '^vt' straight.obj) <(grep '^vt' again.obj) || fail "--flip-v twice is not the identity"
 expect 0 "$pmesh" info uncut.pm
 grep -q '"texture_coordinates": false' "$log/out" || fail "texture left: $(cat "$log/out")"
 # Triangles that turn over in the texture, on request.
