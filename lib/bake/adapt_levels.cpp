@@ -140,8 +140,8 @@ ImageRgba8 AdaptLevels::bake() const {
   return bake(texture_);
 }
 
-ImageRgba8 AdaptLevels::bake(const ImageRgba8& texture) const {
-  return bake_texture(map(), texture, finest_, charts(), options_.adapt.n_threads);
+ImageRgba8 AdaptLevels::bake(const ImageRgba8& texture, const IndexMap& map) const {
+  return bake_texture(map, texture, finest_, charts(), options_.adapt.n_threads);
 }
 
 }  // namespace viewcell

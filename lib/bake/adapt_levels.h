@@ -51,7 +51,9 @@ class AdaptLevels {
   IndexMap map() const;
   /// The texture, or another that has the same texture coordinates, for this level.
   ImageRgba8 bake() const;
-  ImageRgba8 bake(const ImageRgba8& texture) const;
+  ImageRgba8 bake(const ImageRgba8& texture) const { return bake(texture, map()); }
+  /// The same with the map() that is at hand, which may be large.
+  ImageRgba8 bake(const ImageRgba8& texture, const IndexMap& map) const;
 
  private:
   class Adapter;

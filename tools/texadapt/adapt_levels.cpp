@@ -33,9 +33,10 @@ BakedNormalMap write_level(const LevelWriter& writer, const TexadaptArguments& a
   const IndexMap map = has_map ? levels.map() : IndexMap();
   const TriMesh mesh = extract_level(levels, a);
   BakedNormalMap normals = bake_normals(levels, a, in, mesh, map);
-  writer.write(
-      level, mesh, has_map ? &map : nullptr, a.has_normal_map ? &normals.image : nullptr,
-      [&](const ImageRgba8& texture) { return has_map ? levels.bake(texture) : levels.bake(); });
+  writer.write(level, mesh, has_map ? &map : nullptr, a.has_normal_map ? &normals.image : nullptr,
+               [&](const ImageRgba8& texture) {
+                 return has_map ? levels.bake(texture, map) : levels.bake();
+               });
   return normals;
 }
 
