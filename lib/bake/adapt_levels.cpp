@@ -21,6 +21,7 @@ class AdaptLevels::Adapter {
   virtual void go_to(std::size_t n_collapsed) = 0;
   virtual const AdaptCounts& counts() const = 0;
   virtual IndexMap map() const = 0;
+  virtual void let_go() = 0;
   virtual ImageRgba8 texture() const = 0;
 };
 
@@ -30,29 +31,31 @@ class AdaptLevels::AdapterOf : public Adapter {
  public:
   explicit AdapterOf(Engine adapter) : adapter_(std::move(adapter)) {}
   void go_to(std::size_t n_collapsed) override {
-    adapter_.go_to(n_collapsed);
-    counts_.n_adaptations = adapter_.counts().n_adaptations;
-    counts_.n_packs = adapter_.counts().n_packs;
-    if constexpr (std::is_same_v<Engine, TextureAdapter<Texel>>) counts_ = adapter_.counts();
+    VIEWCELL_CHECK(adapter_.has_value());
+    adapter_->go_to(n_collapsed);
+    counts_.n_adaptations = adapter_->counts().n_adaptations;
+    counts_.n_packs = adapter_->counts().n_packs;
+    if constexpr (std::is_same_v<Engine, TextureAdapter<Texel>>) counts_ = adapter_->counts();
   }
+  void let_go() override { adapter_.reset(); }
   const AdaptCounts& counts() const override { return counts_; }
   IndexMap map() const override {
     if constexpr (std::is_same_v<Texel, glm::vec2>)
-      return adapter_.image();
+      return adapter_->image();
     else if constexpr (std::is_same_v<Texel, Rgba8>)
       VIEWCELL_CHECK(false);
     else
-      return float_from(adapter_.image());
+      return float_from(adapter_->image());
     return {};
   }
   ImageRgba8 texture() const override {
-    if constexpr (std::is_same_v<Texel, Rgba8>) return adapter_.image();
+    if constexpr (std::is_same_v<Texel, Rgba8>) return adapter_->image();
     VIEWCELL_CHECK(false);
     return {};
   }
 
  private:
-  Engine adapter_;
+  std::optional<Engine> adapter_;
   AdaptCounts counts_;
 };
 
@@ -133,6 +136,12 @@ const AdaptCounts& AdaptLevels::counts() const {
 
 IndexMap AdaptLevels::map() const {
   return adapter_->map();
+}
+
+IndexMap AdaptLevels::take_map() {
+  IndexMap out = map();
+  adapter_->let_go();
+  return out;
 }
 
 ImageRgba8 AdaptLevels::bake() const {

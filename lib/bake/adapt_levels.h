@@ -49,6 +49,8 @@ class AdaptLevels {
   LevelCharts charts() const { return make_level_charts(mesh_, log_); }
   /// Not for TexelKind::texture.
   IndexMap map() const;
+  /// The same at the last level: what followed the collapses is let go, and set_faces() is over.
+  IndexMap take_map();
   /// The texture, or another that has the same texture coordinates, for this level.
   ImageRgba8 bake() const;
   ImageRgba8 bake(const ImageRgba8& texture) const { return bake(texture, map()); }

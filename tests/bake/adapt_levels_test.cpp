@@ -83,6 +83,21 @@ TEST(AdaptLevels, GoThereAndBack) {
   EXPECT_EQ(levels.bake().pixels, bump.texture.pixels);
 }
 
+// Of the last level the map may be taken; what made it is gone then.
+TEST(AdaptLevels, TheLastMapMayBeTaken) {
+  const Bump bump;
+  AdaptLevels levels = bump.levels();
+  levels.set_faces(60);
+  const IndexMap map = levels.map();
+  const ImageRgba8 picture = levels.bake();
+  const std::size_t n_adaptations = levels.counts().n_adaptations;
+  const IndexMap taken = levels.take_map();
+  EXPECT_EQ(taken.pixels, map.pixels);
+  EXPECT_EQ(levels.bake(bump.texture, taken).pixels, picture.pixels);
+  EXPECT_EQ(levels.counts().n_adaptations, n_adaptations);
+  EXPECT_THROW(levels.set_faces(100), BugError);
+}
+
 // A map that another run has left off at goes on as if it had been one run.
 TEST(AdaptLevels, StartWhereAnotherStopped) {
   const Bump bump;

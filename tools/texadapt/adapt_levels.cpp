@@ -28,9 +28,10 @@ BakedNormalMap bake_normals(const AdaptLevels& levels, const TexadaptArguments& 
 
 // Writes the files of the level where `levels` stands; the counts of its normal map are returned.
 BakedNormalMap write_level(const LevelWriter& writer, const TexadaptArguments& a,
-                           const TexadaptInputs& in, const AdaptLevels& levels, std::size_t level) {
+                           const TexadaptInputs& in, AdaptLevels& levels, std::size_t level) {
   const bool has_map = a.options.texel != TexelKind::texture;
-  const IndexMap map = has_map ? levels.map() : IndexMap();
+  const bool is_last = level == a.levels.back();
+  const IndexMap map = !has_map ? IndexMap() : is_last ? levels.take_map() : levels.map();
   const TriMesh mesh = extract_level(levels, a);
   BakedNormalMap normals = bake_normals(levels, a, in, mesh, map);
   writer.write(level, mesh, has_map ? &map : nullptr, a.has_normal_map ? &normals.image : nullptr,

@@ -241,7 +241,7 @@ void finish_arguments(const Tool& tool, TexadaptArguments& a) {
   check_combinations(a);
   if (a.names_levels && tool.common().output == "-" && a.levels.size() > 1)
     throw UsageError("-o - takes one level");
-  if (a.names_levels && a.mesh.empty() && a.format == TextureFormat::png &&
+  if (a.names_levels && a.mesh.empty() && a.format != TextureFormat::glb &&
       tool.common().output != "-")
     a.mesh = std::filesystem::path(tool.common().output).replace_extension(".ply").string();
   check_all_files(tool, a);
