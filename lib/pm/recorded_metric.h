@@ -49,8 +49,7 @@ struct RecordedMetric {
   Way find_way(std::uint32_t u, std::uint32_t v) requires kPlaces {
     if (recorder.texcoords().empty()) return Way::free;
     if (!recorder.match(mesh, u, v)) return Way::none;
-    if (!recorder.table().match_both(mesh, v) || recorder.table().ends_seam(mesh, v))
-      return Way::to_end;
+    if (!recorder.table().match_both(mesh, v)) return Way::to_end;
     return recorder.table().texture_pairs().size() < 2 ? Way::free : Way::along;
   }
   bool may_collapse(std::uint32_t u, std::uint32_t v) requires kPlaces {

@@ -18,10 +18,9 @@ class Recorder {
   /// full-edge metric moves them. input: the mesh as it was read.
   Recorder(const WedgeMesh& mesh, const TriMesh& input, float scale, bool is_full_edge);
 
-  /// Whether u may collapse into v for what stands at their wedges, see WedgeTable::match. An end
-  /// of a seam stays: how far the seam reaches no map of the star can tell.
+  /// Whether u may collapse into v for what stands at their wedges, see WedgeTable::match.
   bool match(const CollapseMesh& mesh, std::uint32_t u, std::uint32_t v) {
-    return table_.match(mesh, u, v) && !table_.ends_seam(mesh, u);
+    return table_.match(mesh, u, v);
   }
   /// After match(): the texture coordinates that its pairs get. place: where both go, or v for a
   /// half-edge collapse. A full-edge collapse takes them as far towards the child's as the place is

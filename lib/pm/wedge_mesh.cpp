@@ -270,24 +270,6 @@ bool WedgeTable::match_both(const CollapseMesh& mesh, std::uint32_t v) {
   return fits;
 }
 
-bool WedgeTable::ends_seam(const CollapseMesh& mesh, std::uint32_t v) {
-  if (texture_vertex_.empty()) return false;
-  sides_.clear();
-  mesh.for_each_corner(v, [&](std::uint32_t c) {
-    for (std::uint32_t k = 1; k < 3; ++k) {
-      const std::uint32_t other = 3 * (c / 3) + (c + k) % 3;
-      sides_.push_back(
-          {mesh.vertex_at(other), texture_vertex(corners_[c]), texture_vertex(corners_[other])});
-    }
-  });
-  for (std::size_t i = 0; i < sides_.size(); ++i)
-    for (std::size_t j = 0; j < i; ++j)
-      if (sides_[i].neighbour == sides_[j].neighbour && sides_[i].own == sides_[j].own &&
-          sides_[i].other != sides_[j].other)
-        return true;
-  return false;
-}
-
 void WedgeTable::apply(const CollapseTrace& trace) {
   for (const std::uint32_t c : trace.moved) {
     const auto found = std::find_if(pairs_.begin(), pairs_.end(),

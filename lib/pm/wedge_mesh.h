@@ -70,9 +70,6 @@ class WedgeTable {
   /// After match(): whether v may move as well, for each of its texture vertices is met by just one
   /// of u. Then pairs() has every wedge of v.
   bool match_both(const CollapseMesh& mesh, std::uint32_t v);
-  /// Whether a seam ends at v inside a chart: a neighbour has two texture vertices in triangles
-  /// where v has one.
-  bool ends_seam(const CollapseMesh& mesh, std::uint32_t v);
   /// Gives the moved corners the wedges of the last match, which must have been this collapse.
   void apply(const CollapseTrace& trace);
 
@@ -82,10 +79,6 @@ class WedgeTable {
   std::vector<std::uint32_t> texture_vertex_;
   LargeVector<std::uint32_t> corners_;
   std::vector<Pair> pairs_, texture_pairs_;
-  struct Side {  // of an edge of a vertex, in one triangle
-    std::uint32_t neighbour, own, other;
-  };
-  std::vector<Side> sides_;  // scratch
 };
 
 }  // namespace viewcell

@@ -95,7 +95,7 @@ double flagged_length(const Adaptation& adaptation, glm::vec2 AdaptationPoint::*
 }
 
 // The marked edges of a step make up the border that its star has: all of it, once, and no more.
-// A vertex where a seam ends does not go.
+// Where a seam ends in the vertex that goes nothing is adapted, but its faces move.
 TEST(AdaptationLog, MarksTheBordersOfCharts) {
   for (const Placement placement : {Placement::half, Placement::full}) {
     std::size_t n_borders = 0, n_inside = 0, n_torn = 0;
@@ -161,7 +161,7 @@ TEST(AdaptationLog, MarksTheBordersOfCharts) {
       }
     EXPECT_GT(n_borders, 100u);
     EXPECT_GT(n_inside, 40u);
-    EXPECT_EQ(n_torn, 0u);
+    EXPECT_TRUE(n_torn > 5 || placement == Placement::full) << n_torn;
   }
 }
 

@@ -1,7 +1,6 @@
 // Collapses where texture charts meet.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 
 #include "pm/adaptation.h"
@@ -140,41 +139,6 @@ TEST(Charts, WhatStaysIsNotAdapted) {
   }
   EXPECT_GT(n_stay, 10u);
   EXPECT_EQ(log.n_folded + log.n_unmapped, 0u);
-}
-
-// Where a cut ends inside a chart its end stays, and every step has a map.
-//
-//   +-----+     from x = 0 to the middle the texture is cut along y = 6
-//   +--   |
-//   +-----+
-TEST(Charts, EndsOfSeamsStay) {
-  TriMesh grid = make_flat_grid(12);
-  Random random(5);
-  for (glm::vec3& p : grid.positions) p.z = static_cast<float>(0.5 * random.uniform());
-  for (const Triangle& t : grid.triangles) {
-    float y = 0;
-    for (const std::uint32_t v : t) y += grid.positions[v].y / 3;
-    for (const std::uint32_t v : t) {
-      const glm::vec3& p = grid.positions[v];
-      const bool is_upper_side = y > 6 && p.y == 6 && p.x < 6;
-      grid.texcoords.emplace_back(p.x / 12, (p.y + (is_upper_side ? 0.3f : 0)) / 12);
-    }
-  }
-  constexpr std::uint32_t kEnd = 6 * 13 + 6;
-  for (const Way& way : kWays) {
-    SCOPED_TRACE(metric_name(way.metric) + std::string(placement_name(way.placement)));
-    BuildOptions options = options_of(way);
-    options.refuse_folds = true;
-    const BuildResult built = build_progressive_mesh(grid, options);
-    ProgressiveMesh pm(built.record);
-    EXPECT_LT(pm.n_base_faces(), 60u);
-    std::vector<std::uint32_t> source;
-    const TriMesh base = pm.extract(&source);
-    const auto end = std::find(source.begin(), source.end(), kEnd);
-    ASSERT_NE(end, source.end());
-    EXPECT_EQ(base.positions[static_cast<std::size_t>(end - source.begin())], grid.positions[kEnd]);
-    EXPECT_EQ(make_adaptation_log(built.record).n_unmapped, 0u);
-  }
 }
 
 // In a plane only the charts can be harmed: a border that turns corners is off by their height when
