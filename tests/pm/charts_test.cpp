@@ -6,26 +6,10 @@
 #include "pm/adaptation.h"
 #include "pm/build.h"
 #include "pm/shapes.h"
+#include "pm/ways.h"
 
 namespace viewcell {
 namespace {
-
-struct Way {
-  MetricKind metric;
-  Placement placement;
-};
-constexpr Way kWays[] = {
-    {MetricKind::qem3, Placement::half},    {MetricKind::qem3, Placement::full},
-    {MetricKind::lt, Placement::full},      {MetricKind::qem5, Placement::half},
-    {MetricKind::qem5, Placement::full},    {MetricKind::aps, Placement::half},
-    {MetricKind::mapping, Placement::half}, {MetricKind::mapping, Placement::full}};
-
-BuildOptions options_of(const Way& way) {
-  BuildOptions options;
-  options.metric = way.metric;
-  options.placement = way.placement;
-  return options;
-}
 
 // A noisy sphere cut into two charts near the plane x = 0.
 TriMesh make_two_charts(std::uint64_t seed) {
