@@ -56,7 +56,7 @@ inline Refusal as_refusal(Refusal refusal) {
 ///
 /// Collapses in order of cost, one candidate a vertex (its cheapest legal target) in an indexed
 /// heap [Chen06 4]. An illegal candidate is replaced by the vertex's next best, or parked until its
-/// surroundings change; it does not end the loop, as in the paper.
+/// surroundings change; it does not end the loop (in the paper it does).
 template <typename Metric>
 class CollapseLoop {
  public:
