@@ -1,27 +1,40 @@
-# The rooms of lib/, lowest first. This is the one place that orders them: a file may include its
-# own room and the rooms above it in this list; scripts/check-rooms holds every include against it.
-set(VIEWCELL_ROOMS base image mesh pm scene cells visibility gl capture bake play)
+# The rooms of lib/, lowest first, each with the rooms that its files may include from besides its
+# own. This is the one place that says so; scripts/check-rooms holds every include against it.
+set(VIEWCELL_ROOMS
+  "base:"
+  "image: base"
+  "mesh: base"
+  "gl: base image"
+  "formats: base image mesh"
+  "uv: base image mesh"
+  "pm: base image mesh"
+  "adapt: base image mesh gl uv pm"
+  "report: base image mesh formats"
+  "scene: base mesh formats"
+  "cells: base mesh scene"
+  "park: base mesh formats pm scene"
+  "visibility: mesh"
+  "capture: base image gl scene cells"
+  "bundle: base image scene cells"
+  "bake: base image mesh formats pm scene cells visibility capture bundle"
+  "draw: base image mesh gl report scene"
+  "play: base image gl report scene bundle draw")
 
 # viewcell_room(NAME [LIBRARIES ...]): the static library viewcell_NAME from lib/NAME/*.cpp, which
-# sees every lower room. LIBRARIES are the third-party libraries that only this room wraps.
+# sees the rooms that the table grants it. LIBRARIES are the third-party libraries that only this
+# room wraps.
 function(viewcell_room NAME)
   cmake_parse_arguments(ARG "" "" "LIBRARIES" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${NAME}/*.cpp)
-  if(NOT sources)
-    add_library(viewcell_${NAME} INTERFACE)
-    set(scope INTERFACE)
-    set(private_scope INTERFACE)
-  else()
-    add_library(viewcell_${NAME} STATIC ${sources})
-    set(scope PUBLIC)
-    set(private_scope PRIVATE)
+  add_library(viewcell_${NAME} STATIC ${sources})
+  target_include_directories(viewcell_${NAME} PUBLIC ${PROJECT_SOURCE_DIR}/lib)
+  set(row ${VIEWCELL_ROOMS})
+  list(FILTER row INCLUDE REGEX "^${NAME}:")
+  if(NOT row)
+    message(FATAL_ERROR "room ${NAME} is not in the table of cmake/rooms.cmake")
   endif()
-  target_include_directories(viewcell_${NAME} ${scope} ${PROJECT_SOURCE_DIR}/lib)
-  list(FIND VIEWCELL_ROOMS ${NAME} place)
-  if(place GREATER 0)
-    math(EXPR below "${place} - 1")
-    list(GET VIEWCELL_ROOMS ${below} lower)
-    target_link_libraries(viewcell_${NAME} ${scope} viewcell_${lower})
-  endif()
-  target_link_libraries(viewcell_${NAME} ${private_scope} ${ARG_LIBRARIES})
+  string(REGEX REPLACE "^[a-z]+: *" "" needs "${row}")
+  string(REPLACE " " ";" needs "${needs}")
+  list(TRANSFORM needs PREPEND viewcell_)
+  target_link_libraries(viewcell_${NAME} PUBLIC ${needs} PRIVATE ${ARG_LIBRARIES})
 endfunction()

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "bake/vertex_weights.h"
+#include "bundle/representation.h"
 #include "cells/cells.h"
 #include "pm/collapse_loop.h"
 #include "scene/scene.h"
@@ -39,8 +40,6 @@ struct BakeScene {
 
 /// Builds the levels of every mesh: some seconds for a million triangles.
 BakeScene build_bake_scene(const Scene& scene, const CellSet& cells, int n_threads);
-
-enum class Representation : std::uint8_t { inside, single_view, multi_view };
 
 /// Inside the cell, or one view where the self-occluding error is below T_s, else several. Every
 /// object of a cell is exactly one of them, whoever asks.

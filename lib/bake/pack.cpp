@@ -8,6 +8,8 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "base/srgb.h"
+#include "image/half.h"
 #include "mesh/optimize.h"
 
 namespace viewcell {
@@ -159,7 +161,43 @@ std::size_t count_inside(const Scene& scene, const CellSet& cells, CellId cell) 
   return n;
 }
 
+// The curve at every half in [0, 1], by its bits: captures hold halves.
+std::uint8_t srgb8_of_half(float linear) {
+  static const std::vector<std::uint8_t> table = [] {
+    std::vector<std::uint8_t> codes(half_from_float(1.0f) + 1u);
+    for (std::size_t bits = 0; bits < codes.size(); ++bits)
+      codes[bits] = srgb8_from_linear(float_from_half(static_cast<std::uint16_t>(bits)));
+    return codes;
+  }();
+  return table[half_from_float(std::clamp(linear, 0.0f, 1.0f))];
+}
+
 }  // namespace
+
+void append_tile(const CaptureTile& tile, CentreTextures& textures) {
+  const auto& depths = tile.inverse_depth.pixels;
+  const auto [lo, hi] = std::minmax_element(depths.begin(), depths.end());
+  BundleTile out;
+  out.object = static_cast<std::int32_t>(tile.object);
+  out.x = tile.crop.x, out.y = tile.crop.y;
+  out.width_px = tile.crop.width_px, out.height_px = tile.crop.height_px;
+  out.source_px = tile.view.source_px;
+  for (int k = 0; k < 3; ++k) {
+    out.eye[k] = tile.view.eye[k], out.right[k] = tile.view.right[k];
+    out.up[k] = tile.view.up[k], out.forward[k] = tile.view.forward[k];
+  }
+  out.focal_px = tile.view.focal_px;
+  out.code_scale = *hi > *lo ? 255.0 / (static_cast<double>(*hi) - *lo) : 0.0;
+  out.code_bias = -out.code_scale * *lo;
+  out.first_texel = textures.texels.size();
+  textures.tiles.push_back(out);
+  for (std::size_t i = 0; i < depths.size(); ++i) {
+    const RgbaFloat& c = tile.color.pixels[i];
+    const double code = std::clamp(out.code_scale * depths[i] + out.code_bias, 0.0, 255.0);
+    textures.texels.push_back({srgb8_of_half(c[0]), srgb8_of_half(c[1]), srgb8_of_half(c[2]),
+                               static_cast<std::uint8_t>(code + 0.5)});
+  }
+}
 
 PackCounts pack_bundle(const Scene& scene, const CellSet& cells, const PackInputs& inputs,
                        const std::vector<CellId>& list, TextureFormat format, const Json& made_by,

@@ -1,9 +1,9 @@
 // Packing captures and meshes into a bundle.
 #pragma once
 
-#include "bake/bundle.h"
 #include "bake/weighted_mesh_file.h"
 #include "base/parallel.h"
+#include "bundle/bundle.h"
 #include "capture/captures.h"
 
 namespace viewcell {
@@ -26,5 +26,8 @@ PackCounts pack_bundle(const Scene& scene, const CellSet& cells, const PackInput
                        const std::vector<CellId>& list, TextureFormat format, const Json& made_by,
                        const std::filesystem::path& bundle, int n_threads,
                        const Progress& progress);
+
+/// Encodes a filled capture as a tile: appends its texels.
+void append_tile(const CaptureTile& tile, CentreTextures& textures);
 
 }  // namespace viewcell

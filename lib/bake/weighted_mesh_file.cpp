@@ -6,7 +6,7 @@
 
 #include "base/error.h"
 #include "base/file.h"
-#include "mesh/ply.h"
+#include "formats/ply.h"
 
 namespace viewcell {
 namespace {

@@ -9,7 +9,6 @@
 
 #include "base/error.h"
 #include "mesh/closest_point.h"
-#include "mesh/io.h"
 #include "mesh/surface_samples.h"
 
 namespace viewcell {

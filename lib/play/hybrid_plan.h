@@ -4,7 +4,7 @@
 #include <array>
 #include <vector>
 
-#include "play/frame_plan.h"
+#include "draw/frame_plan.h"
 #include "play/ready_cell.h"
 
 namespace viewcell {

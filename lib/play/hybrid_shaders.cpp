@@ -1,6 +1,6 @@
 #include "play/hybrid_shaders.h"
 
-#include "play/shading.h"
+#include "draw/shading.h"
 
 namespace viewcell {
 namespace {

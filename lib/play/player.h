@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
+#include "draw/raycast.h"
+#include "draw/scene_renderer.h"
 #include "gl/context.h"
 #include "play/floor.h"
 #include "play/hybrid_renderer.h"
-#include "play/raycast.h"
-#include "play/scene_renderer.h"
 
 namespace viewcell {
 

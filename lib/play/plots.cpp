@@ -1,7 +1,7 @@
 #include "play/plots.h"
 
 #include "base/file.h"
-#include "base/plot.h"
+#include "report/plot.h"
 
 namespace viewcell {
 namespace {

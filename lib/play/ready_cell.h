@@ -5,7 +5,7 @@
 #include <glm/glm.hpp>
 #include <vector>
 
-#include "bake/bundle.h"
+#include "bundle/bundle.h"
 
 namespace viewcell {
 

@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "base/parallel.h"
-#include "play/contact_sheet.h"
 #include "play/player.h"
 #include "play/timeline.h"
+#include "report/contact_sheet.h"
 
 namespace viewcell {
 

@@ -6,8 +6,8 @@
 #include <functional>
 
 #include "base/error.h"
-#include "base/table.h"
 #include "image/metrics.h"
+#include "report/table.h"
 
 namespace viewcell {
 namespace {

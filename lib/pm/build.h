@@ -40,7 +40,7 @@ struct BuildOptions {
   /// always do.
   bool refuse_folds = false;
   /// Refuse what makes a texture chart grow over another, on a texture of so many texels a side; 0:
-  /// do not look. For textures that are adapted (bake/texture_adapt.h).
+  /// do not look. For textures that are adapted (adapt/texture_adapt.h).
   int charts_apart_px = 0;
   bool lazy = true;         ///< costs are looked at again when they come up, see CollapseLimits
   float min_cosine = 0.2f;  ///< a normal may turn by up to acos of this

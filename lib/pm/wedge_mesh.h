@@ -40,7 +40,7 @@ WedgeMesh make_wedges(const TriMesh& mesh, bool along_curve = false);
 void find_texture_vertices(WedgeMesh& mesh);
 
 /// The texture chart of every face: charts are what corners of equal vertex and texture coordinates
-/// connect, a single corner too (of a TriMesh, bake/chart_map.h connects across whole edges only).
+/// connect, a single corner too (of a TriMesh, uv/chart_map.h connects across whole edges only).
 /// Numbers in the order of their first faces. mesh must have texture coordinates.
 std::vector<std::uint32_t> find_charts(const WedgeMesh& mesh);
 

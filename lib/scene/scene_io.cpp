@@ -5,7 +5,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/parallel.h"
-#include "mesh/io.h"
+#include "formats/mesh_file.h"
 #include "scene/scene.h"
 
 namespace viewcell {

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "small_bake.h"
+#include "bake/small_bake.h"
 
 namespace viewcell {
 namespace {

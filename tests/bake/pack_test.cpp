@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "mesh/expect_input_error.h"
-#include "small_bake.h"
+#include "bake/small_bake.h"
+#include "common/expect_input_error.h"
 
 namespace viewcell {
 namespace {

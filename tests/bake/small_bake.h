@@ -7,9 +7,9 @@
 #include "capture/capture_centre.h"
 #include "capture/ray_capture.h"
 #include "capture/shapes.h"
+#include "common/temporary_folder.h"
+#include "formats/mesh_file.h"
 #include "image/fill.h"
-#include "mesh/io.h"
-#include "mesh/temporary_folder.h"
 
 namespace viewcell {
 

@@ -4,9 +4,9 @@
 
 #include <fstream>
 
-#include "mesh/expect_input_error.h"
-#include "mesh/mutate.h"
-#include "small_bake.h"
+#include "bake/small_bake.h"
+#include "common/expect_input_error.h"
+#include "common/mutate.h"
 
 namespace viewcell {
 namespace {

@@ -10,8 +10,8 @@
 #include <fstream>
 
 #include "base/random.h"
-#include "mesh/expect_input_error.h"
-#include "mesh/temporary_folder.h"
+#include "common/expect_input_error.h"
+#include "common/temporary_folder.h"
 
 namespace viewcell {
 namespace {

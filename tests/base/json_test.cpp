@@ -6,9 +6,9 @@
 #include <limits>
 
 #include "base/random.h"
-#include "mesh/expect_input_error.h"
-#include "mesh/mutate.h"
-#include "mesh/temporary_folder.h"
+#include "common/expect_input_error.h"
+#include "common/mutate.h"
+#include "common/temporary_folder.h"
 
 namespace viewcell {
 namespace {

@@ -8,9 +8,9 @@
 
 #include "base/file.h"
 #include "base/random.h"
-#include "mesh/expect_input_error.h"
-#include "mesh/mutate.h"
-#include "mesh/temporary_folder.h"
+#include "common/expect_input_error.h"
+#include "common/mutate.h"
+#include "common/temporary_folder.h"
 
 namespace viewcell {
 namespace {

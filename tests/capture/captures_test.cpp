@@ -7,9 +7,9 @@
 
 #include "capture/ray_capture.h"
 #include "capture/shapes.h"
+#include "common/expect_input_error.h"
+#include "common/temporary_folder.h"
 #include "image/fill.h"
-#include "mesh/expect_input_error.h"
-#include "mesh/temporary_folder.h"
 
 namespace viewcell {
 namespace {

@@ -11,7 +11,7 @@
 
 #include "base/random.h"
 #include "capture/view.h"
-#include "mesh/io.h"
+#include "formats/mesh_file.h"
 #include "scene/scene.h"
 
 namespace viewcell {

@@ -6,8 +6,8 @@
 #include "base/error.h"
 #include "cells/cells.h"
 #include "cells/small_scene.h"
-#include "mesh/expect_input_error.h"
-#include "mesh/temporary_folder.h"
+#include "common/expect_input_error.h"
+#include "common/temporary_folder.h"
 
 namespace viewcell {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "base/error.h"
 #include "image/metrics.h"
-#include "random_image.h"
+#include "image/random_image.h"
 
 namespace viewcell {
 namespace {

@@ -12,8 +12,8 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/random.h"
+#include "common/temporary_folder.h"
 #include "image/half.h"
-#include "temporary_folder.h"
 
 namespace viewcell {
 namespace {

@@ -13,9 +13,9 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/srgb.h"
+#include "common/temporary_folder.h"
 #include "image/header.h"
-#include "random_image.h"
-#include "temporary_folder.h"
+#include "image/random_image.h"
 
 namespace viewcell {
 namespace {

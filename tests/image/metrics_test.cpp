@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "image/random_image.h"
 #include "image/ssim.h"
-#include "random_image.h"
 
 namespace viewcell {
 namespace {

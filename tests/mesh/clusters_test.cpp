@@ -6,8 +6,8 @@
 #include <filesystem>
 
 #include "base/random.h"
+#include "formats/mesh_file.h"
 #include "mesh/cube.h"
-#include "mesh/io.h"
 #include "mesh/knot.h"
 
 namespace viewcell {

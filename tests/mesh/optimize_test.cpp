@@ -6,7 +6,7 @@
 #include <filesystem>
 
 #include "base/random.h"
-#include "mesh/io.h"
+#include "formats/mesh_file.h"
 #include "mesh/knot.h"
 
 namespace viewcell {

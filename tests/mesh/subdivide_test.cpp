@@ -9,13 +9,13 @@
 #include <tuple>
 
 #include "base/random.h"
+#include "common/expect_input_error.h"
+#include "formats/mesh_file.h"
 #include "mesh/cube.h"
-#include "mesh/expect_input_error.h"
-#include "mesh/io.h"
 #include "mesh/repair.h"
 #include "mesh/surfaces.h"
-#include "mesh/texcoord_drift.h"
-#include "mesh/uv_stretch.h"
+#include "uv/texcoord_drift.h"
+#include "uv/uv_stretch.h"
 
 namespace viewcell {
 namespace {

@@ -9,9 +9,9 @@
 #include <numeric>
 
 #include "base/random.h"
+#include "formats/mesh_file.h"
 #include "mesh/closest_point.h"
 #include "mesh/cube.h"
-#include "mesh/io.h"
 #include "mesh/knot.h"
 #include "mesh/surface_samples.h"
 

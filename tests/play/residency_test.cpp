@@ -5,8 +5,8 @@
 #include <chrono>
 
 #include "bake/small_bake.h"
-#include "gl_fixture.h"
-#include "mesh/expect_input_error.h"
+#include "common/expect_input_error.h"
+#include "draw/gl_fixture.h"
 
 namespace viewcell {
 namespace {

@@ -7,8 +7,8 @@
 
 #include "base/error.h"
 #include "base/random.h"
-#include "play/contact_sheet.h"
-#include "play/label.h"
+#include "report/contact_sheet.h"
+#include "report/label.h"
 
 namespace viewcell {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "base/error.h"
 #include "base/random.h"
-#include "gl_fixture.h"
+#include "draw/gl_fixture.h"
 
 namespace viewcell {
 namespace {

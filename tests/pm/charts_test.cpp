@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "pm/adaptation.h"
+#include "adapt/adaptation.h"
 #include "pm/build.h"
 #include "pm/shapes.h"
 #include "pm/ways.h"

@@ -6,10 +6,10 @@
 #include <map>
 #include <span>
 
+#include "adapt/adaptation.h"
 #include "base/error.h"
-#include "mesh/expect_input_error.h"
-#include "mesh/temporary_folder.h"
-#include "pm/adaptation.h"
+#include "common/expect_input_error.h"
+#include "common/temporary_folder.h"
 #include "pm/build.h"
 #include "pm/pm_file.h"
 #include "pm/shapes.h"

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "base/random.h"
-#include "mesh/expect_input_error.h"
-#include "mesh/temporary_folder.h"
+#include "common/expect_input_error.h"
+#include "common/temporary_folder.h"
 
 namespace viewcell {
 namespace {

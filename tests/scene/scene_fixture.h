@@ -4,9 +4,9 @@
 #include <string>
 
 #include "base/file.h"
+#include "common/temporary_folder.h"
+#include "formats/mesh_file.h"
 #include "mesh/cube.h"
-#include "mesh/io.h"
-#include "mesh/temporary_folder.h"
 #include "scene/scene.h"
 
 namespace viewcell {

@@ -4,8 +4,8 @@
 
 #include <functional>
 
-#include "mesh/expect_input_error.h"
-#include "mesh/mutate.h"
+#include "common/expect_input_error.h"
+#include "common/mutate.h"
 #include "scene/scene_fixture.h"
 
 namespace viewcell {

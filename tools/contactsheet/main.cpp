@@ -5,7 +5,7 @@
 #include "common/files.h"
 #include "common/tool.h"
 #include "image/io.h"
-#include "play/contact_sheet.h"
+#include "report/contact_sheet.h"
 
 namespace viewcell {
 namespace {

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "common/tool.h"
-#include "mesh/distance_report.h"
+#include "report/distance_report.h"
 
 namespace viewcell {
 

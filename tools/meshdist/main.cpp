@@ -2,10 +2,10 @@
 #include <cstdio>
 
 #include "base/file.h"
-#include "base/table.h"
 #include "common/provenance.h"
 #include "common/stopwatch.h"
 #include "meshdist/arguments.h"
+#include "report/table.h"
 
 namespace viewcell {
 namespace {

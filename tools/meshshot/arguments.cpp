@@ -4,8 +4,8 @@
 
 #include "base/error.h"
 #include "common/files.h"
+#include "formats/texture_file.h"
 #include "gl/context.h"
-#include "mesh/texture_file.h"
 
 namespace viewcell {
 namespace {

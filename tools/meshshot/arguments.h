@@ -4,7 +4,7 @@
 #include <string>
 
 #include "common/tool.h"
-#include "play/mesh_shots.h"
+#include "draw/mesh_shots.h"
 
 namespace viewcell {
 

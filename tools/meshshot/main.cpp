@@ -3,14 +3,14 @@
 #include <optional>
 
 #include "base/error.h"
-#include "base/table.h"
 #include "common/provenance.h"
 #include "common/stopwatch.h"
+#include "formats/mesh_file.h"
+#include "formats/texture_file.h"
 #include "gl/context.h"
 #include "image/index_map.h"
-#include "mesh/io.h"
-#include "mesh/texture_file.h"
 #include "meshshot/arguments.h"
+#include "report/table.h"
 
 namespace viewcell {
 namespace {

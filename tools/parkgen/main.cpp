@@ -2,8 +2,8 @@
 #include "base/error.h"
 #include "common/provenance.h"
 #include "common/tool.h"
-#include "scene/models.h"
-#include "scene/park.h"
+#include "park/models.h"
+#include "park/park.h"
 
 namespace viewcell {
 namespace {

@@ -4,9 +4,9 @@
 
 #include "base/error.h"
 #include "base/file.h"
-#include "base/plot_csv.h"
 #include "common/files.h"
 #include "common/tool.h"
+#include "report/plot_csv.h"
 
 namespace viewcell {
 namespace {

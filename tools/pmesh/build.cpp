@@ -5,7 +5,7 @@
 
 #include "common/provenance.h"
 #include "common/stopwatch.h"
-#include "mesh/io.h"
+#include "formats/mesh_file.h"
 #include "pm/pm_file.h"
 #include "pmesh/commands.h"
 

@@ -4,7 +4,7 @@
 #include "base/error.h"
 #include "base/version.h"
 #include "common/stopwatch.h"
-#include "mesh/io.h"
+#include "formats/mesh_file.h"
 #include "pm/pm_file.h"
 #include "pmesh/commands.h"
 

@@ -2,12 +2,12 @@
 
 #include <utility>
 
-#include "bake/chart_map.h"
 #include "base/error.h"
 #include "base/file.h"
-#include "base/table.h"
+#include "formats/mesh_file.h"
 #include "image/compare_index_maps.h"
-#include "mesh/io.h"
+#include "report/table.h"
+#include "uv/chart_map.h"
 
 namespace viewcell {
 namespace {

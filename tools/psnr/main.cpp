@@ -8,8 +8,8 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "common/tool.h"
-#include "image/compare_files.h"
 #include "index_maps.h"
+#include "report/compare_files.h"
 
 namespace viewcell {
 namespace {

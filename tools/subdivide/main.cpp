@@ -8,9 +8,9 @@
 #include "common/files.h"
 #include "common/provenance.h"
 #include "common/tool.h"
-#include "mesh/io.h"
-#include "mesh/texcoord_drift.h"
-#include "mesh/uv_stretch.h"
+#include "formats/mesh_file.h"
+#include "uv/texcoord_drift.h"
+#include "uv/uv_stretch.h"
 
 namespace viewcell {
 namespace {

@@ -1,6 +1,6 @@
 #include <optional>
 
-#include "bake/normal_map.h"
+#include "adapt/normal_map.h"
 #include "common/stopwatch.h"
 #include "gl/context.h"
 #include "mesh/mesh.h"

@@ -6,7 +6,7 @@
 
 #include "base/error.h"
 #include "common/files.h"
-#include "mesh/texture_file.h"
+#include "formats/texture_file.h"
 
 namespace viewcell {
 namespace {

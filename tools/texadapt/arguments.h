@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "bake/adapt_levels.h"
-#include "bake/normal_map.h"
+#include "adapt/adapt_levels.h"
+#include "adapt/normal_map.h"
 #include "common/tool.h"
 
 namespace viewcell {

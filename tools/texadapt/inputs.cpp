@@ -1,12 +1,12 @@
 #include "texadapt/inputs.h"
 
-#include "bake/chart_checks.h"
+#include "adapt/adapt_file.h"
 #include "base/error.h"
+#include "formats/texture_file.h"
 #include "image/index_map.h"
-#include "mesh/texture_file.h"
-#include "pm/adapt_file.h"
 #include "pm/pm_file.h"
 #include "texadapt/level_writer.h"
+#include "uv/chart_checks.h"
 
 namespace viewcell {
 namespace {

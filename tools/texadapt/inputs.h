@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "adapt/adaptation.h"
 #include "image/image.h"
-#include "pm/adaptation.h"
 #include "pm/progressive_mesh.h"
 #include "texadapt/arguments.h"
 

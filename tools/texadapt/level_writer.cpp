@@ -3,9 +3,9 @@
 #include <filesystem>
 
 #include "base/version.h"
+#include "formats/mesh_file.h"
+#include "formats/write_glb.h"
 #include "image/io.h"
-#include "mesh/io.h"
-#include "mesh/write_glb.h"
 
 namespace viewcell {
 namespace {

@@ -1,4 +1,4 @@
-#include "bake/rebake.h"
+#include "adapt/rebake.h"
 #include "common/stopwatch.h"
 #include "texadapt/level_writer.h"
 #include "texadapt/levels.h"

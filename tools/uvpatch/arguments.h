@@ -4,7 +4,7 @@
 #include <string>
 
 #include "common/tool.h"
-#include "mesh/textured_patch.h"
+#include "uv/textured_patch.h"
 
 namespace viewcell {
 

@@ -4,15 +4,15 @@
 
 #include "base/error.h"
 #include "base/file.h"
-#include "base/table.h"
 #include "common/provenance.h"
 #include "common/tool.h"
+#include "formats/mesh_file.h"
+#include "formats/textured_obj.h"
 #include "image/checker.h"
 #include "image/header.h"
 #include "image/io.h"
-#include "mesh/io.h"
-#include "mesh/textured_obj.h"
-#include "mesh/textured_patch.h"
+#include "report/table.h"
+#include "uv/textured_patch.h"
 #include "uvpatch/arguments.h"
 
 namespace viewcell {

@@ -1,0 +1,32 @@
+// Adaptations that touch disjoint parts of a texture, side by side.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "adapt/adaptation.h"
+
+namespace viewcell {
+
+/// Width of the gutters around charts, texels: all that lies within 2 texels of a chart in both
+/// directions, so that fetches at a border find nothing else.
+inline constexpr float kGutter = 3;
+inline constexpr int kGutterReach = 2;
+
+/// Steps of a log, pack by pack: no adaptation of a pack writes a texel that another one of it
+/// reads or writes. Each stands behind all that it depends on.
+struct AdaptPacks {
+  std::vector<std::uint32_t> order;
+  std::vector<std::size_t> first;  ///< of each pack's in order; one more at the end
+
+  std::size_t size() const { return first.size() - 1; }
+};
+
+/// The way from `from` to `to` steps made; back when to < from. Steps that adapt nothing are left
+/// out. pack: false makes packs of one. Follows: [Chen06 3.3]. Differs: each adaptation
+/// goes into the first pack that it may, so packs are as few as the order of dependencies allows.
+/// What an adaptation touches is measured in tiles of the texture.
+AdaptPacks pack_adaptations(const AdaptationLog& log, std::size_t from, std::size_t to,
+                            int width_px, int height_px, bool pack = true);
+
+}  // namespace viewcell

@@ -1,0 +1,23 @@
+// Ordinary textures from indexing maps.
+#pragma once
+
+#include "adapt/adaptation.h"
+#include "image/index_map.h"
+
+namespace viewcell {
+
+/// Per texel 1 where its centre lies in a face, or within reach_px of such a texel in both
+/// directions, else 0.
+Image<std::uint8_t> make_chart_mask(const LevelCharts& charts, int width_px, int height_px,
+                                    int reach_px = 0);
+
+/// The texture as an index map shows it: a texture of the map's size, which may differ from the
+/// texture's. Texels that hold their own place keep the original's bits. Fetches find texels of
+/// charts, which are continued a few texels outwards, not what lies around them.
+/// finest, level: the faces before the first collapse and now. What charts have left behind takes
+/// the colour of the nearest texel of a chart; what none ever covered stays as it was.
+/// The same bytes for any n_threads (0: all).
+ImageRgba8 bake_texture(const IndexMap& map, const ImageRgba8& texture, const LevelCharts& finest,
+                        const LevelCharts& level, int n_threads = 0);
+
+}  // namespace viewcell

@@ -1,0 +1,95 @@
+// What the player loads: a folder that needs nothing beside it (docs/formats.md, bundle).
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "bundle/representation.h"
+#include "cells/cells.h"
+#include "image/image.h"
+#include "scene/scene.h"
+
+namespace viewcell {
+
+/// One outside object of a cell, as drawn.
+struct BundleObject {
+  std::int32_t object = 0;
+  std::uint32_t kind = 0;  ///< a Representation
+  std::uint32_t n_vertices = 0;
+  std::uint32_t n_triangles = 0;
+  float lo[3] = {}, hi[3] = {};  ///< box of its vertices, world
+};
+
+/// Geometry of a cell: objects one after another, indices counted from each object's first vertex.
+struct CellGeometry {
+  std::vector<BundleObject> objects;
+  std::vector<std::uint32_t> source_vertices;  ///< numbers in each object's original mesh
+  /// How far each vertex lies off its original along the normal, in 1/1024 of the scene's unit.
+  std::vector<std::int16_t> offsets;
+  std::vector<std::uint32_t> indices;  ///< 3 a triangle
+  std::vector<std::uint8_t> views;     ///< 1 a triangle
+};
+
+/// One object's crop as seen from a centre.
+struct BundleTile {
+  std::int32_t object = 0;
+  std::int32_t x = 0, y = 0, width_px = 0, height_px = 0;  ///< the crop in the source image
+  std::int32_t source_px = 0;
+  double eye[3] = {}, right[3] = {}, up[3] = {}, forward[3] = {};
+  double focal_px = 1;
+  /// A texel's alpha is code = scale / depth + bias, rounded, 0..255 from far to near.
+  double code_scale = 0, code_bias = 0;
+  std::uint64_t first_texel = 0;  ///< row by row from here
+};
+
+/// Textures of a centre: 4 bytes a texel, sRGB colour and a depth code as alpha.
+struct CentreTextures {
+  std::vector<BundleTile> tiles;
+  std::vector<Rgba8> texels;
+};
+
+enum class TextureFormat { rgba8, bc3 };
+
+struct BundleManifest {
+  std::string scene_hash;
+  int resolution_px = 0;
+  TextureFormat texture_format = TextureFormat::rgba8;
+  std::vector<CellId> cells;
+  std::vector<CentreId> centres;
+  Json made_by;
+};
+
+inline constexpr double kOffsetUnit = 1.0 / 1024;
+
+/// Opens a bundle; everything else is read from it on demand. Reading is const and thread-safe.
+class Bundle {
+ public:
+  /// Throws InputError unless the folder holds a whole bundle.
+  explicit Bundle(const std::filesystem::path& folder, int n_threads = 0);
+
+  const BundleManifest& manifest() const { return manifest_; }
+  const Scene& scene() const { return scene_; }
+  const CellSet& cells() const { return cells_; }
+  bool has(CellId cell) const;
+  bool has(CentreId centre) const;
+  CellGeometry read_cell(CellId cell) const;
+  /// texels: memory to read into, its contents lost.
+  CentreTextures read_centre(CentreId centre, std::vector<Rgba8> texels = {}) const;
+
+ private:
+  std::filesystem::path folder_;
+  BundleManifest manifest_;
+  Scene scene_;
+  CellSet cells_;
+};
+
+std::filesystem::path cell_file(const std::filesystem::path& bundle, CellId cell);
+std::filesystem::path centre_file(const std::filesystem::path& bundle, CentreId centre);
+void write_cell_geometry(const std::filesystem::path& file, const CellGeometry& geometry);
+void write_centre_textures(const std::filesystem::path& file, const CentreTextures& textures,
+                           TextureFormat format);
+Json format_manifest(const BundleManifest& manifest);
+inline constexpr const char* kManifestName = "bundle.json";
+
+}  // namespace viewcell

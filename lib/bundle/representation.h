@@ -1,0 +1,12 @@
+// What stands for an object in a view cell.
+#pragma once
+
+#include <cstdint>
+
+namespace viewcell {
+
+/// inside: the original; single_view: an SVMesh; multi_view: an MVMesh [Chen06 5.2.1]. The numbers
+/// are those of bundle files.
+enum class Representation : std::uint8_t { inside, single_view, multi_view };
+
+}  // namespace viewcell

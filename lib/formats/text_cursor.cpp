@@ -1,0 +1,133 @@
+#include "formats/text_cursor.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdlib>
+
+#include "base/error.h"
+
+namespace viewcell {
+namespace {
+
+bool is_blank(char c) {
+  return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f';
+}
+
+template <typename Real>
+bool parse_real(std::string_view word, Real& out) {
+  if (!word.empty() && word[0] == '+') word.remove_prefix(1);  // from_chars takes no plus sign
+  const char* end = word.data() + word.size();
+  const auto [stop, error] = std::from_chars(word.data(), end, out);
+  if (stop != end || error == std::errc::invalid_argument) return false;
+  // Too small for the type is zero or denormal, too large is refused below.
+  if (error == std::errc::result_out_of_range)
+    out = static_cast<Real>(std::strtod(std::string(word).c_str(), nullptr));
+  return std::isfinite(out);
+}
+
+std::string quoted(std::string_view word) {
+  constexpr std::size_t kMost = 40;
+  return "'" + std::string(word.substr(0, kMost)) + (word.size() > kMost ? "...'" : "'");
+}
+
+std::string named(const char* what, std::uint64_t id) {
+  return what + (" " + std::to_string(id)) + ": ";
+}
+
+}  // namespace
+
+bool parse_finite(std::string_view word, float& out) {
+  return parse_real(word, out);
+}
+bool parse_finite(std::string_view word, double& out) {
+  return parse_real(word, out);
+}
+
+bool parse_integer(std::string_view word, std::int64_t& out) {
+  if (!word.empty() && word[0] == '+') word.remove_prefix(1);
+  const char* end = word.data() + word.size();
+  const auto [stop, error] = std::from_chars(word.data(), end, out);
+  return stop == end && error == std::errc();
+}
+
+bool TextCursor::at_end() {
+  skip_space();
+  return at_ == text_.size();
+}
+
+std::string_view TextCursor::word() {
+  if (at_end()) fail("the file ends too early");
+  return take_word();
+}
+
+std::string_view TextCursor::word_in_line() {
+  skip_space_in_line();
+  return take_word();
+}
+
+void TextCursor::skip_line() {
+  const std::size_t end = text_.find('\n', at_);
+  at_ = end == std::string_view::npos ? text_.size() : end + 1;
+  ++line_;
+}
+
+float TextCursor::number(std::string_view word, const char* what, std::uint64_t id) const {
+  float value;
+  if (parse_finite(word, value)) return value;
+  fail(named(what, id) +
+       (word.empty() ? "a number is missing" : quoted(word) + " is not a finite number"));
+}
+
+std::int64_t TextCursor::integer(std::string_view word, const char* what, std::uint64_t id,
+                                 std::int64_t lo, std::int64_t hi) const {
+  std::int64_t value;
+  const bool is_whole = parse_integer(word, value);
+  if (is_whole && value >= lo && value <= hi) return value;
+  if (word.empty()) fail(named(what, id) + "a number is missing");
+  if (!is_whole) fail(named(what, id) + quoted(word) + " is not a whole number");
+  fail(named(what, id) + quoted(word) + " is not within " + std::to_string(lo) + " to " +
+       std::to_string(hi));
+}
+
+void TextCursor::fail(const std::string& what) const {
+  throw InputError(file_, "line " + std::to_string(line_), what);
+}
+
+// A backslash before the end of a line joins it to the next (OBJ).
+bool TextCursor::is_continuation() const {
+  if (text_[at_] != '\\') return false;
+  const std::string_view after = text_.substr(at_ + 1, 2);
+  return after.starts_with('\n') || after == "\r\n";
+}
+
+void TextCursor::skip_space_in_line() {
+  for (; at_ < text_.size(); ++at_) {
+    if (is_continuation()) {
+      at_ = text_.find('\n', at_);
+      ++line_;
+    } else if (!is_blank(text_[at_])) {
+      break;
+    }
+  }
+  if (comment_ && at_ < text_.size() && text_[at_] == comment_)
+    at_ = std::min(text_.find('\n', at_), text_.size());
+}
+
+void TextCursor::skip_space() {
+  for (;;) {
+    skip_space_in_line();
+    if (at_ == text_.size() || text_[at_] != '\n') return;
+    ++at_;
+    ++line_;
+  }
+}
+
+std::string_view TextCursor::take_word() {
+  const std::size_t start = at_;
+  while (at_ < text_.size() && !is_blank(text_[at_]) && text_[at_] != '\n' && !is_continuation())
+    ++at_;
+  return text_.substr(start, at_ - start);
+}
+
+}  // namespace viewcell

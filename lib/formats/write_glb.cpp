@@ -1,0 +1,252 @@
+#include "formats/write_glb.h"
+
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <map>
+#include <tuple>
+
+#include "base/error.h"
+#include "base/file.h"
+#include "base/json.h"
+#include "base/version.h"
+#include "mesh/tangents.h"
+
+// Source: the glTF 2.0 specification (Khronos), 4.4 (GLB) and 3.6 (accessors).
+
+namespace viewcell {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "GLB is written as it lies in memory");
+
+constexpr int kFloat = 5126, kUnsignedShort = 5123, kUnsignedInt = 5125;
+constexpr int kVertexData = 34962, kIndexData = 34963;
+constexpr int kLinear = 9729, kLinearMipmapLinear = 9987;
+
+// --- vertices: each a vertex of the mesh with one texture coordinate ---
+
+struct SplitMesh {
+  std::vector<std::uint32_t> source;  // the mesh's vertex
+  std::vector<glm::vec2> texcoords;   // ours, v up; empty without
+  std::vector<glm::vec4> tangents;    // empty without
+  std::vector<std::uint32_t> indices;
+};
+
+// Bits, so that every coordinate equals itself.
+std::uint64_t bits_of(const glm::vec2& uv) {
+  return std::uint64_t{std::bit_cast<std::uint32_t>(uv.x)} << 32 |
+         std::bit_cast<std::uint32_t>(uv.y);
+}
+
+// tangents: of corners, or empty. Corners of a vertex with the same texture coordinates on the same
+// side have the same one.
+SplitMesh split_vertices(const TriMesh& mesh, const std::vector<glm::vec4>& tangents) {
+  const auto n = static_cast<std::uint32_t>(mesh.positions.size());
+  SplitMesh out;
+  for (std::uint32_t v = 0; v < n; ++v) out.source.push_back(v);
+  std::vector<bool> is_taken(n, false);
+  if (!mesh.texcoords.empty()) out.texcoords.resize(n, glm::vec2(0));
+  if (!tangents.empty()) out.tangents.resize(n, glm::vec4(1, 0, 0, 1));
+  std::map<std::tuple<std::uint32_t, std::uint64_t, float>, std::uint32_t> copies;
+  for (std::size_t corner = 0; corner < 3 * mesh.triangles.size(); ++corner) {
+    const std::uint32_t v = mesh.triangles[corner / 3][corner % 3];
+    out.indices.push_back(v);
+    if (mesh.texcoords.empty()) continue;
+    const glm::vec2& uv = mesh.texcoords[corner];
+    const float side = tangents.empty() ? 0 : tangents[corner].w;
+    if (!is_taken[v]) {
+      out.texcoords[v] = uv;
+      if (!tangents.empty()) out.tangents[v] = tangents[corner];
+    }
+    is_taken[v] = true;
+    const bool is_same_side = tangents.empty() || out.tangents[v].w == side;
+    if (bits_of(out.texcoords[v]) == bits_of(uv) && is_same_side) continue;
+    const auto next = static_cast<std::uint32_t>(out.source.size());
+    const auto [copy, is_new] = copies.try_emplace({v, bits_of(uv), side}, next);
+    out.indices.back() = copy->second;
+    if (!is_new) continue;
+    out.source.push_back(v);
+    out.texcoords.push_back(uv);
+    if (!tangents.empty()) out.tangents.push_back(tangents[corner]);
+  }
+  return out;
+}
+
+// --- the binary chunk ---
+
+// The buffer as it grows, and the JSON that tells what stands where in it.
+struct Content {
+  std::string bytes;
+  Json views = Json::array(), accessors = Json::array();
+};
+
+// target 0: none. Gives the view's number.
+std::size_t add_view(Content& content, const void* data, std::size_t n_bytes, int target) {
+  Json view{{"buffer", 0}, {"byteOffset", content.bytes.size()}, {"byteLength", n_bytes}};
+  if (target != 0) view["target"] = target;
+  content.views.push_back(std::move(view));
+  content.bytes.append(static_cast<const char*>(data), n_bytes);
+  content.bytes.resize((content.bytes.size() + 3) / 4 * 4, '\0');
+  return content.views.size() - 1;
+}
+
+template <typename Element>
+std::size_t add_accessor(Content& content, const std::vector<Element>& elements, int component_type,
+                         const char* type, int target) {
+  const std::size_t view =
+      add_view(content, elements.data(), elements.size() * sizeof(Element), target);
+  content.accessors.push_back({{"bufferView", view},
+                               {"componentType", component_type},
+                               {"count", elements.size()},
+                               {"type", type}});
+  return content.accessors.size() - 1;
+}
+
+std::vector<glm::vec3> pick(const std::vector<glm::vec3>& values,
+                            const std::vector<std::uint32_t>& source) {
+  std::vector<glm::vec3> out;
+  out.reserve(source.size());
+  for (const std::uint32_t v : source) out.push_back(values[v]);
+  return out;
+}
+
+std::size_t add_positions(Content& content, const std::vector<glm::vec3>& positions) {
+  const std::size_t id = add_accessor(content, positions, kFloat, "VEC3", kVertexData);
+  glm::vec3 lo = positions[0], hi = positions[0];
+  for (const glm::vec3& p : positions) lo = glm::min(lo, p), hi = glm::max(hi, p);
+  content.accessors[id]["min"] = Json::array({lo.x, lo.y, lo.z});
+  content.accessors[id]["max"] = Json::array({hi.x, hi.y, hi.z});
+  return id;
+}
+
+// 65535 itself would be the mark that restarts a strip.
+std::size_t add_indices(Content& content, const SplitMesh& split) {
+  if (split.source.size() > 65535)
+    return add_accessor(content, split.indices, kUnsignedInt, "SCALAR", kIndexData);
+  const std::vector<std::uint16_t> small(split.indices.begin(), split.indices.end());
+  return add_accessor(content, small, kUnsignedShort, "SCALAR", kIndexData);
+}
+
+std::vector<glm::vec4> tangents_for(const TriMesh& mesh, const GlbOptions& options) {
+  if (options.normal_map.empty() || mesh.normals.empty()) return {};
+  return make_corner_tangents(mesh, make_corner_normals(mesh));
+}
+
+Json add_primitive(Content& content, const TriMesh& mesh, const GlbOptions& options) {
+  const SplitMesh split = split_vertices(mesh, tangents_for(mesh, options));
+  Json attributes{{"POSITION", add_positions(content, pick(mesh.positions, split.source))}};
+  const auto add = [&](const char* name, const std::vector<glm::vec3>& values) {
+    attributes[name] =
+        add_accessor(content, pick(values, split.source), kFloat, "VEC3", kVertexData);
+  };
+  if (!mesh.normals.empty()) add("NORMAL", mesh.normals);
+  if (!split.texcoords.empty()) {
+    std::vector<glm::vec2> turned = split.texcoords;
+    for (glm::vec2& uv : turned) uv.y = 1 - uv.y;
+    attributes["TEXCOORD_0"] = add_accessor(content, turned, kFloat, "VEC2", kVertexData);
+  }
+  if (!split.tangents.empty())
+    attributes["TANGENT"] = add_accessor(content, split.tangents, kFloat, "VEC4", kVertexData);
+  if (!mesh.colors.empty() && options.base_color.empty()) add("COLOR_0", mesh.colors);
+  return {{"attributes", attributes}, {"indices", add_indices(content, split)}, {"material", 0}};
+}
+
+// --- the JSON chunk ---
+
+const char* mime_type(const std::string& picture, const std::string& file) {
+  if (picture.starts_with("\x89PNG\r\n\x1a\n")) return "image/png";
+  if (picture.starts_with("\xff\xd8\xff")) return "image/jpeg";
+  throw InputError(file, "texture", "is neither PNG nor JPEG, which glTF holds");
+}
+
+// Adds a picture and its texture; gives what a material says of it.
+Json add_texture(Content& content, Json& root, const std::string& picture,
+                 const std::string& file) {
+  const char* type = mime_type(picture, file);
+  const std::size_t view = add_view(content, picture.data(), picture.size(), 0);
+  if (!root.contains("textures")) {
+    root["textures"] = root["images"] = Json::array();
+    root["samplers"] =
+        Json::array({Json{{"magFilter", kLinear}, {"minFilter", kLinearMipmapLinear}}});
+  }
+  root["images"].push_back({{"bufferView", view}, {"mimeType", type}});
+  root["textures"].push_back({{"sampler", 0}, {"source", root["images"].size() - 1}});
+  return {{"index", root["textures"].size() - 1}};
+}
+
+Json make_root(Content& content, const TriMesh& mesh, const GlbOptions& options,
+               const std::string& file) {
+  const std::string generator =
+      options.generator.empty() ? std::string("viewcell ") + version() : options.generator;
+  const Json root_node{{"mesh", 0}}, scene{{"nodes", Json::array({0})}};
+  Json root{{"asset", {{"version", "2.0"}, {"generator", generator}}},
+            {"scene", 0},
+            {"scenes", Json::array({scene})},
+            {"nodes", Json::array({root_node})}};
+  const Json primitive = add_primitive(content, mesh, options);
+  root["meshes"] = Json::array({Json{{"primitives", Json::array({primitive})}}});
+  Json material{{"pbrMetallicRoughness", {{"metallicFactor", 0}, {"roughnessFactor", 1}}}};
+  if (!options.base_color.empty())
+    material["pbrMetallicRoughness"]["baseColorTexture"] =
+        add_texture(content, root, options.base_color, file);
+  if (!options.normal_map.empty())
+    material["normalTexture"] = add_texture(content, root, options.normal_map, file);
+  root["materials"] = Json::array({material});
+  root["accessors"] = content.accessors;
+  root["bufferViews"] = content.views;
+  root["buffers"] = Json::array({Json{{"byteLength", content.bytes.size()}}});
+  return root;
+}
+
+// --- the file ---
+
+void append_word(std::string& out, std::size_t word) {
+  const auto bits = static_cast<std::uint32_t>(word);
+  out.append(reinterpret_cast<const char*>(&bits), sizeof bits);
+}
+
+std::string join_chunks(std::string json, const std::string& binary, const std::string& file) {
+  json.resize((json.size() + 3) / 4 * 4, ' ');
+  const std::size_t n_bytes = 12 + 8 + json.size() + 8 + binary.size();
+  if (n_bytes > std::numeric_limits<std::uint32_t>::max())
+    throw InputError(file, "", "is too large for a GLB, which holds 4 GiB");
+  std::string out = "glTF";
+  append_word(out, 2);
+  append_word(out, n_bytes);
+  append_word(out, json.size());
+  out += "JSON" + json;
+  append_word(out, binary.size());
+  return out.append("BIN\0", 4) + binary;
+}
+
+template <typename Vector>
+void check_finite(const std::vector<Vector>& values, const char* what, const std::string& file) {
+  for (const Vector& value : values)
+    for (int k = 0; k < Vector::length(); ++k)
+      if (!std::isfinite(value[k]))
+        throw InputError(file, what, "hold a number that is not finite");
+}
+
+void check_input(const TriMesh& mesh, const GlbOptions& options, const std::string& file) {
+  const std::size_t n_corners = 3 * mesh.triangles.size();
+  VIEWCELL_CHECK(n_corners > 0, file);
+  VIEWCELL_CHECK(mesh.texcoords.empty() || mesh.texcoords.size() == n_corners,
+                 mesh.texcoords.size(), n_corners);
+  VIEWCELL_CHECK(
+      !mesh.texcoords.empty() || (options.base_color.empty() && options.normal_map.empty()),
+      "a texture without texture coordinates");
+  check_finite(mesh.positions, "positions", file);
+  check_finite(mesh.texcoords, "texture coordinates", file);
+}
+
+}  // namespace
+
+void write_glb(const std::filesystem::path& file, const TriMesh& mesh, const GlbOptions& options) {
+  check_input(mesh, options, file.string());
+  Content content;
+  const Json root = make_root(content, mesh, options, file.string());
+  write_file(file, join_chunks(root.dump(), content.bytes, file.string()));
+}
+
+}  // namespace viewcell

@@ -1,0 +1,92 @@
+#include "uv/triangle_grid.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace viewcell {
+namespace {
+
+constexpr int kMostCells = 1024;  // along each side
+
+bool is_finite(const Corners2& p) {
+  return std::isfinite(p[0].x + p[0].y + p[1].x + p[1].y + p[2].x + p[2].y);
+}
+
+}  // namespace
+
+TriangleGrid::TriangleGrid(const TriMesh& mesh, const std::vector<std::uint32_t>& charts)
+    : mesh_(mesh), charts_(charts) {
+  glm::dvec2 lo(1e300), hi(-1e300);
+  for (const glm::vec2& uv : mesh.texcoords)
+    if (std::isfinite(uv.x + uv.y))
+      lo = glm::min(lo, glm::dvec2(uv)), hi = glm::max(hi, glm::dvec2(uv));
+  const double n_triangles = static_cast<double>(mesh.triangles.size());
+  n_ = std::clamp(static_cast<int>(std::sqrt(n_triangles)), 1, kMostCells);
+  if (lo.x <= hi.x) lo_ = lo, cell_ = glm::max((hi - lo) / double(n_), glm::dvec2(1e-12));
+  const auto for_each_cell = [&](auto&& visit) {
+    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+      const Corners2 p = corners_of(t);
+      if (!is_finite(p)) continue;
+      const glm::ivec2 a = cell_of(glm::min(glm::min(p[0], p[1]), p[2]));
+      const glm::ivec2 b = cell_of(glm::max(glm::max(p[0], p[1]), p[2]));
+      for (int y = a.y; y <= b.y; ++y)
+        for (int x = a.x; x <= b.x; ++x) visit(place_of(x, y), t);
+    }
+  };
+  starts_.assign(place_of(0, n_) + 1, 0);
+  for_each_cell([&](std::size_t cell, std::uint32_t) { ++starts_[cell + 1]; });
+  for (std::size_t i = 1; i < starts_.size(); ++i) starts_[i] += starts_[i - 1];
+  triangles_.resize(starts_.back());
+  std::vector<std::uint32_t> ends(starts_.begin(), starts_.end() - 1);
+  for_each_cell([&](std::size_t cell, std::uint32_t t) { triangles_[ends[cell]++] = t; });
+}
+
+glm::ivec2 TriangleGrid::cell_of(const glm::dvec2& uv) const {
+  const glm::dvec2 at = glm::clamp((uv - lo_) / cell_, glm::dvec2(0), glm::dvec2(n_ - 1));
+  return {static_cast<int>(at.x), static_cast<int>(at.y)};
+}
+
+Corners2 TriangleGrid::corners_of(std::uint32_t t) const {
+  return {mesh_.texcoords[3 * t], mesh_.texcoords[3 * t + 1], mesh_.texcoords[3 * t + 2]};
+}
+
+// Rings of cells around uv's own, until what lies beyond is farther than what was found.
+TriangleGrid::Place TriangleGrid::find(const glm::dvec2& uv, std::uint32_t chart) const {
+  Place best;
+  double least2 = std::numeric_limits<double>::infinity();
+  const auto look_into = [&](int x, int y) {
+    if (x < 0 || y < 0 || x >= n_ || y >= n_) return;
+    const std::size_t cell = place_of(x, y);
+    for (std::uint32_t i = starts_[cell]; i < starts_[cell + 1]; ++i) {
+      const std::uint32_t t = triangles_[i];
+      if (charts_[t] != chart) continue;
+      const Corners2 p = corners_of(t);
+      const glm::dvec3 weights = nearest_weights(p, uv);
+      const glm::dvec2 off = mix(p, weights) - uv;
+      const double squared = glm::dot(off, off);
+      if (squared > least2 || (squared == least2 && t >= best.triangle)) continue;
+      least2 = squared, best = {t, weights};
+    }
+  };
+  const glm::ivec2 c = cell_of(uv);
+  for (int r = 0; r < n_; ++r) {
+    for (int x = c.x - r; x <= c.x + r; ++x) {
+      look_into(x, c.y - r);
+      if (r > 0) look_into(x, c.y + r);
+    }
+    for (int y = c.y - r + 1; y < c.y + r; ++y) {
+      look_into(c.x - r, y);
+      look_into(c.x + r, y);
+    }
+    // Distance from uv, or its nearest point of the grid, to the nearest cell not yet seen.
+    const glm::dvec2 in = glm::clamp((uv - lo_) / cell_, glm::dvec2(0), glm::dvec2(n_));
+    const glm::dvec2 low = (in - glm::dvec2(c - r)) * cell_,
+                     high = (glm::dvec2(c + r + 1) - in) * cell_;
+    const double reach = std::min(std::min(low.x, low.y), std::min(high.x, high.y));
+    if (least2 <= reach * reach) break;
+  }
+  return best;
+}
+
+}  // namespace viewcell
