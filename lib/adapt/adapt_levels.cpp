@@ -61,12 +61,6 @@ class AdaptLevels::AdapterOf : public Adapter {
 
 namespace {
 
-ProgressiveMesh at_finest(const ProgressiveRecord& record) {
-  ProgressiveMesh mesh(record);
-  mesh.set_level(mesh.n_splits());
-  return mesh;
-}
-
 AdaptLevelsOptions with_size(AdaptLevelsOptions options, const ImageRgba8& texture) {
   if (options.width_px <= 0) options.width_px = texture.width_px;
   if (options.height_px <= 0) options.height_px = texture.height_px;
@@ -80,7 +74,7 @@ AdaptLevels::AdaptLevels(const ProgressiveRecord& record, const AdaptationLog& l
     : log_(log),
       texture_(texture),
       options_(with_size(options, texture)),
-      mesh_(at_finest(record)),
+      mesh_(make_finest(record)),
       finest_(make_level_charts(mesh_, log)) {
   if (options_.start) mesh_.set_faces(options_.start_faces);
   const int width_px = options_.width_px, height_px = options_.height_px;

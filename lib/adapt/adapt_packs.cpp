@@ -8,7 +8,7 @@
 namespace viewcell {
 namespace {
 
-constexpr int kTile = 8;  // texels a side
+constexpr int kPackTile = 8;  // texels a side
 
 // What an adaptation reads; of that it may write all but the outermost texels.
 struct Region {
@@ -34,7 +34,8 @@ Region region_of(const Adaptation& adaptation, int width_px, int height_px) {
 class Tiles {
  public:
   Tiles(int width_px, int height_px)
-      : n_x_((width_px + kTile - 1) / kTile), n_y_((height_px + kTile - 1) / kTile) {
+      : n_x_((width_px + kPackTile - 1) / kPackTile),
+        n_y_((height_px + kPackTile - 1) / kPackTile) {
     tiles_.resize(static_cast<std::size_t>(n_x_) * static_cast<std::size_t>(n_y_));
   }
 
@@ -57,7 +58,7 @@ class Tiles {
   template <typename Visit>
   void for_each_tile(const Region& region, float margin, Visit&& visit) {
     const auto tile = [&](float at, int n) {
-      return std::clamp(static_cast<int>(std::floor(std::clamp(at, -1e6f, 1e6f) / kTile)), 0,
+      return std::clamp(static_cast<int>(std::floor(std::clamp(at, -1e6f, 1e6f) / kPackTile)), 0,
                         n - 1);
     };
     const int x1 = tile(region.hi.x + margin, n_x_), y1 = tile(region.hi.y + margin, n_y_);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/gtx/exterior_product.hpp>
 #include <tuple>
 
 #include "base/error.h"
@@ -22,13 +23,7 @@ struct Finest {
   std::size_t n_charts = 0;
 };
 
-ProgressiveMesh at_finest(const ProgressiveRecord& record) {
-  ProgressiveMesh mesh(record);
-  mesh.set_level(mesh.n_splits());
-  return mesh;
-}
-
-Finest make_finest(const ProgressiveMesh& mesh) {
+Finest describe_finest(const ProgressiveMesh& mesh) {
   const ProgressiveRecord& record = mesh.record();
   Finest out;
   out.wedges.positions.assign(record.attributes.positions.begin(),
@@ -50,7 +45,7 @@ Finest make_finest(const ProgressiveMesh& mesh) {
 int turn_of(const glm::vec2& a, const glm::vec2& b, const glm::vec2& c) {
   constexpr double kRounding = 0x1p-23;
   const glm::dvec2 p(a), q = glm::dvec2(b) - p, r = glm::dvec2(c) - p;
-  const double area2 = q.x * r.y - q.y * r.x;
+  const double area2 = glm::cross(q, r);
   const double largest = std::max({1.0, std::abs(p.x), std::abs(p.y)});
   const double most = kRounding * largest * (glm::length(q) + glm::length(r));
   return std::abs(area2) <= most ? 0 : area2 > 0 ? 1 : -1;
@@ -60,8 +55,8 @@ int turn_of(const glm::vec2& a, const glm::vec2& b, const glm::vec2& c) {
 class LogBuilder {
  public:
   explicit LogBuilder(const ProgressiveRecord& record)
-      : coarser_(at_finest(record)),
-        finest_(make_finest(coarser_)),
+      : coarser_(make_finest(record)),
+        finest_(describe_finest(coarser_)),
         is_adapted_(finest_.wedges.faces.size(), false),
         mesh_(finest_.wedges.positions, finest_.triangles),
         table_(finest_.wedges),

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/gtx/exterior_product.hpp>
 #include <utility>
 
 #include "adapt/adapt_packs.h"
@@ -18,8 +19,7 @@ bool is_finite(const TexelTriangle& p) {
 }
 
 float area2(const TexelTriangle& p) {
-  const glm::vec2 a = p[1] - p[0], b = p[2] - p[0];
-  return a.x * b.y - a.y * b.x;
+  return glm::cross(p[1] - p[0], p[2] - p[0]);
 }
 
 struct Bounds {
@@ -38,8 +38,7 @@ std::vector<glm::vec2> convex_hull(std::vector<glm::vec2>& points) {
   if (points.empty()) return hull;
   const auto add = [&](const glm::vec2& p, std::size_t keep) {
     const auto turns_left = [&] {
-      const glm::vec2 a = hull.back() - hull.end()[-2], b = p - hull.back();
-      return a.x * b.y - a.y * b.x > 0;
+      return glm::cross(hull.back() - hull.end()[-2], p - hull.back()) > 0;
     };
     while (hull.size() > keep && !turns_left()) hull.pop_back();
     hull.push_back(p);

@@ -5,7 +5,7 @@
 namespace viewcell {
 namespace {
 
-constexpr const char* kVersion = "#version 450 core\n";
+constexpr const char* kGlslVersion = "#version 450 core\n";
 
 constexpr const char* kPlace = R"(
 vec4 clip_from_place(vec2 at) { return vec4((at + 0.5) * (2 / vec2(kSize)) - 1, 0.5, 1); }
@@ -187,11 +187,11 @@ AdaptPrograms make_adapt_programs(const Gl& gl, int width_px, int height_px,
   const std::string size = "const ivec2 kSize = ivec2(" + std::to_string(width_px) + ", " +
                            std::to_string(height_px) + ");\nconst uint kInside = 0x8000u;\n";
   const std::string vertex =
-      kVersion + size +
+      kGlslVersion + size +
       (options.filters ? "#define SOURCE (from + 0.5) / vec2(kSize)\n" : "#define SOURCE from\n") +
       kPlace;
   const std::string fragment =
-      kVersion + size +
+      kGlslVersion + size +
       (options.n_channels == 4
            ? "#define Value vec4\n#define CHANNELS rgba\n#define FILL , 0, 0\n#define GATHER G(0), "
              "G(1), G(2), G(3)\n"

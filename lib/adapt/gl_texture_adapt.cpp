@@ -23,17 +23,17 @@ struct TexelFormat {
   GLenum internal_format, format, type;
 };
 template <typename Texel>
-constexpr TexelFormat kFormat{};
+constexpr TexelFormat kTexelFormat{};
 template <>
-constexpr TexelFormat kFormat<glm::vec2>{GL_RG32F, GL_RG, GL_FLOAT};
+constexpr TexelFormat kTexelFormat<glm::vec2>{GL_RG32F, GL_RG, GL_FLOAT};
 template <>
-constexpr TexelFormat kFormat<Unorm16Texel>{GL_RG16, GL_RG, GL_UNSIGNED_SHORT};
+constexpr TexelFormat kTexelFormat<Unorm16Texel>{GL_RG16, GL_RG, GL_UNSIGNED_SHORT};
 template <>
-constexpr TexelFormat kFormat<Unorm8Texel>{GL_RG8, GL_RG, GL_UNSIGNED_BYTE};
+constexpr TexelFormat kTexelFormat<Unorm8Texel>{GL_RG8, GL_RG, GL_UNSIGNED_BYTE};
 template <>
-constexpr TexelFormat kFormat<HalfTexel>{GL_RG16F, GL_RG, GL_HALF_FLOAT};
+constexpr TexelFormat kTexelFormat<HalfTexel>{GL_RG16F, GL_RG, GL_HALF_FLOAT};
 template <>
-constexpr TexelFormat kFormat<Rgba8>{GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE};
+constexpr TexelFormat kTexelFormat<Rgba8>{GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE};
 constexpr TexelFormat kOwnerFormat{GL_R16UI, GL_RED_INTEGER, GL_UNSIGNED_SHORT};
 
 // GL's row 0 is the bottom; an Image's is the top.
@@ -115,7 +115,7 @@ class GlTextureAdapter<Texel>::Engine {
             gl, width_px_, height_px_,
             {.n_channels = kIsIndex ? 2 : 4,
              .rounds_to_half = std::is_same_v<Texel, HalfTexel>,
-             .filters = filters_precisely(gl, kFormat<Texel>.internal_format)})),
+             .filters = filters_precisely(gl, kTexelFormat<Texel>.internal_format)})),
         array_(gl),
         owned_array_(gl),
         builder_(log, owners_up, kIsIndex, options.copies_boxes.value_or(is_software_renderer(gl))),
@@ -124,10 +124,10 @@ class GlTextureAdapter<Texel>::Engine {
     const Image<Texel> rows_up = flip_rows(image);
     for (GlFramebuffer& target : targets_) {
       target = GlFramebuffer(gl, width_px_, height_px_,
-                             {kFormat<Texel>.internal_format, kOwnerFormat.internal_format});
+                             {kTexelFormat<Texel>.internal_format, kOwnerFormat.internal_format});
       for (const GLenum filter : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER})
         gl.TextureParameteri(target.color(0).id(), filter, GL_LINEAR);
-      write_texture(gl, target.color(0), kFormat<Texel>, rows_up);
+      write_texture(gl, target.color(0), kTexelFormat<Texel>, rows_up);
       write_texture(gl, target.color(1), kOwnerFormat, owners_up);
     }
     set_attributes();
@@ -136,7 +136,7 @@ class GlTextureAdapter<Texel>::Engine {
 
   void go_to(std::size_t n_collapsed);
   Image<Texel> image() const {
-    return read_texture<Texel>(gl_, current().color(0), kFormat<Texel>, width_px_, height_px_);
+    return read_texture<Texel>(gl_, current().color(0), kTexelFormat<Texel>, width_px_, height_px_);
   }
   Image<std::uint16_t> owners() const {
     return read_texture<std::uint16_t>(gl_, current().color(1), kOwnerFormat, width_px_,

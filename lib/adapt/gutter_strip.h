@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <glm/glm.hpp>
+#include <glm/gtx/exterior_product.hpp>
 
 #include "adapt/texel_owners.h"
 #include "image/texel_spans.h"
@@ -29,8 +30,7 @@ struct GutterStrip {
 inline glm::vec2 outward(const glm::vec2& edge, const TexelTriangle& triangle) {
   const float length = glm::length(edge);
   if (!(length > 0)) return glm::vec2(0);
-  const glm::vec2 a = triangle[1] - triangle[0], b = triangle[2] - triangle[0];
-  const bool is_clockwise = a.x * b.y - a.y * b.x < 0;
+  const bool is_clockwise = glm::cross(triangle[1] - triangle[0], triangle[2] - triangle[0]) < 0;
   return (is_clockwise ? glm::vec2(-edge.y, edge.x) : glm::vec2(edge.y, -edge.x)) / length;
 }
 

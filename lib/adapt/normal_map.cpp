@@ -14,7 +14,7 @@ namespace viewcell {
 namespace {
 
 // How far charts are continued before fetches; texels.
-constexpr int kContinued = 4;
+constexpr int kContinuedNormals = 4;
 
 // A mesh's frames anywhere on its triangles.
 struct Frames {
@@ -30,31 +30,31 @@ struct Frames {
 
 // ---- What the finest mesh shows -----------------------------------------------------------------
 
-ImageRgba8 continue_charts(const ImageRgba8& image, const TriMesh& mesh, int n_threads) {
+ImageRgba8 continue_triangles(const ImageRgba8& image, const TriMesh& mesh, int n_threads) {
   TriangleMap map(image.width_px, image.height_px);
   draw_insides(mesh, map);
   Image<std::uint8_t> is_owned(image.width_px, image.height_px);
   for (std::size_t i = 0; i < map.pixels.size(); ++i) is_owned.pixels[i] = map.pixels[i] != 0;
   ImageRgba8 out = image;
-  copy_into_gutter(out, nearest_owned_texels(is_owned, kContinued, n_threads));
+  copy_into_gutter(out, nearest_owned_texels(is_owned, kContinuedNormals, n_threads));
   return out;
 }
 
-struct Finest {
+struct NormalSource {
   Frames frames;
   TriangleGrid grid;
   const ImageRgba8* normal_map;  // as it is; null: flat
   ImageRgba8 continued;
   NormalMapY y;
 
-  Finest(const ChartedMesh& finest, const ImageRgba8* map, const NormalMapOptions& options)
+  NormalSource(const ChartedMesh& finest, const ImageRgba8* map, const NormalMapOptions& options)
       : frames(finest.mesh), grid(finest.mesh, finest.charts), normal_map(map), y(options.y) {
-    if (map) continued = continue_charts(*map, finest.mesh, options.n_threads);
+    if (map) continued = continue_triangles(*map, finest.mesh, options.n_threads);
   }
 };
 
 // The map's normal at uv, not unit.
-glm::dvec3 fetch_normal(const Finest& finest, const glm::vec2& uv) {
+glm::dvec3 fetch_normal(const NormalSource& finest, const glm::vec2& uv) {
   if (!finest.normal_map) return {0, 0, 1};
   const ImageRgba8& image = finest.continued;
   const BilinearTexels at = bilinear_texels(image, to_texels(uv, image.width_px, image.height_px));
@@ -65,7 +65,7 @@ glm::dvec3 fetch_normal(const Finest& finest, const glm::vec2& uv) {
 }
 
 // At texel (x, y) of the index map, which holds uv.
-glm::dvec3 fetch_normal_at(const Finest& finest, const IndexMap& map, int x, int y) {
+glm::dvec3 fetch_normal_at(const NormalSource& finest, const IndexMap& map, int x, int y) {
   const glm::vec2& uv = map.at(x, y);
   const ImageRgba8* image = finest.normal_map;
   const bool is_own = image && map.width_px == image->width_px &&
@@ -97,7 +97,7 @@ bool express(const glm::dmat3& frame, const glm::dvec3& meant, double length, gl
 }
 
 // The normals of one row; clamped: of how many texels.
-void bake_row(const IndexMap& map, const TriangleMap& triangles, const Finest& finest,
+void bake_row(const IndexMap& map, const TriangleMap& triangles, const NormalSource& finest,
               const Frames& frames, const ChartedMesh& level, int y, BakedNormalMap& out,
               std::size_t& n_clamped) {
   for (int x = 0; x < map.width_px; ++x) {
@@ -129,7 +129,7 @@ BakedNormalMap bake_normal_map(const IndexMap& map, const ImageRgba8* normal_map
                                const NormalMapOptions& options) {
   check_input(map, normal_map, finest);
   check_input(map, normal_map, level);
-  const Finest source(finest, normal_map, options);
+  const NormalSource source(finest, normal_map, options);
   const Frames frames(level.mesh);
   TriangleMap triangles(map.width_px, map.height_px);
   draw_insides(level.mesh, triangles);

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <glm/glm.hpp>
+#include <glm/gtx/exterior_product.hpp>
 
 #include "image/texel_spans.h"
 
@@ -36,7 +37,7 @@ inline TexelAffine make_affine_along(const TexelTriangle& from, const TexelTrian
 inline TexelAffine make_affine(const TexelTriangle& from, const TexelTriangle& to) {
   const glm::vec2 a = from[1] - from[0], b = from[2] - from[0];
   const glm::vec2 c = to[1] - to[0], d = to[2] - to[0];
-  const float det = a.x * b.y - a.y * b.x;
+  const float det = glm::cross(a, b);
   // The longest edge is at most so long.
   const float longest2 = 2 * (glm::dot(a, a) + glm::dot(b, b));
   if (!(det * det > kLeastHeight_px * kLeastHeight_px * longest2))

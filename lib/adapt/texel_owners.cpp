@@ -8,11 +8,11 @@
 namespace viewcell {
 namespace {
 
-constexpr int kTile = 8;  // texels a side
+constexpr int kOwnerTile = 8;  // texels a side
 constexpr std::uint16_t kSeveral = 0x7fff;
 
 int tile_of(float at, int n) {
-  return std::clamp(static_cast<int>(std::clamp(at, 0.0f, 1e6f)) / kTile, 0, n - 1);
+  return std::clamp(static_cast<int>(std::clamp(at, 0.0f, 1e6f)) / kOwnerTile, 0, n - 1);
 }
 
 void claim_faces(const LevelCharts& charts, Image<std::uint16_t>& owners) {
@@ -56,10 +56,11 @@ Image<std::uint16_t> make_texel_owners(const LevelCharts& charts, int width_px, 
 }
 
 OwnerTiles::OwnerTiles(const Image<std::uint16_t>& owners)
-    : tiles_((owners.width_px + kTile - 1) / kTile, (owners.height_px + kTile - 1) / kTile) {
+    : tiles_((owners.width_px + kOwnerTile - 1) / kOwnerTile,
+             (owners.height_px + kOwnerTile - 1) / kOwnerTile) {
   for (int y = 0; y < owners.height_px; ++y)
     for (int x = 0; x < owners.width_px; ++x)
-      mark_tile(x / kTile, y / kTile, owners.at(x, y) & ~kInsideChart);
+      mark_tile(x / kOwnerTile, y / kOwnerTile, owners.at(x, y) & ~kInsideChart);
 }
 
 void OwnerTiles::mark_tile(int x, int y, std::uint16_t name) {

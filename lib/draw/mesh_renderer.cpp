@@ -14,11 +14,11 @@
 namespace viewcell {
 namespace {
 
-struct Vertex {
+struct MeshVertex {
   glm::vec3 position, normal;  // frame space
   glm::vec3 surface;           // texture coordinates and 0; or a linear colour
 };
-static_assert(sizeof(Vertex) == 36);
+static_assert(sizeof(MeshVertex) == 36);
 
 // What a vertex has more with a normal map.
 struct MappedVertex {
@@ -175,14 +175,14 @@ glm::vec3 surface_of(const TriMesh& mesh, bool has_texture, const MeshStyle& sty
 }
 
 // Positions are normalised in double: a small mesh far from the origin keeps its shape.
-std::vector<Vertex> make_vertices(const TriMesh& mesh, const MeshFrame& frame, bool has_texture,
-                                  const MeshStyle& style) {
+std::vector<MeshVertex> make_vertices(const TriMesh& mesh, const MeshFrame& frame, bool has_texture,
+                                      const MeshStyle& style) {
   const std::vector<glm::vec3> normals = choose_normals(mesh, style.normals);
   std::vector<glm::vec3> positions;
   positions.reserve(mesh.positions.size());
   for (const glm::vec3& p : mesh.positions)
     positions.emplace_back(frame_from_mesh(frame, glm::dvec3(p)));
-  std::vector<Vertex> vertices;
+  std::vector<MeshVertex> vertices;
   vertices.reserve(3 * mesh.triangles.size());
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const Triangle& triangle = mesh.triangles[t];
@@ -262,13 +262,13 @@ MeshRenderer::MeshRenderer(const Gl& gl, const TriMesh& mesh, const MeshFrame& f
                       0.5f * static_cast<float>(style.samples));
   if (texture) texture_ = upload(gl, *texture, GL_SRGB8_ALPHA8);
   if (index_map) index_map_ = upload(gl, *index_map);
-  const std::vector<Vertex> vertices = make_vertices(mesh, frame, texture != nullptr, style);
+  const std::vector<MeshVertex> vertices = make_vertices(mesh, frame, texture != nullptr, style);
   vertices_ = make_buffer(gl, vertices);
   n_vertices_ = static_cast<GLsizei>(vertices.size());
-  gl.VertexArrayVertexBuffer(array_.id(), 0, vertices_.id(), 0, sizeof(Vertex));
-  array_.set_attribute(0, 3, GL_FLOAT, GL_FALSE, offsetof(Vertex, position));
-  array_.set_attribute(1, 3, GL_FLOAT, GL_FALSE, offsetof(Vertex, normal));
-  array_.set_attribute(2, 3, GL_FLOAT, GL_FALSE, offsetof(Vertex, surface));
+  gl.VertexArrayVertexBuffer(array_.id(), 0, vertices_.id(), 0, sizeof(MeshVertex));
+  array_.set_attribute(0, 3, GL_FLOAT, GL_FALSE, offsetof(MeshVertex, position));
+  array_.set_attribute(1, 3, GL_FLOAT, GL_FALSE, offsetof(MeshVertex, normal));
+  array_.set_attribute(2, 3, GL_FLOAT, GL_FALSE, offsetof(MeshVertex, surface));
   if (surface.has_normal_map) {
     normal_map_ = upload(gl, *normal_map, GL_RGBA8);
     gl.ProgramUniform1f(program_.id(), program_.uniform("green_up"),

@@ -14,11 +14,11 @@
 namespace viewcell {
 namespace {
 
-struct Vertex {
+struct SceneVertex {
   glm::vec3 position;
   std::array<std::int16_t, 4> normal;  // of 32767; the fourth is padding
 };
-static_assert(sizeof(Vertex) == 20);
+static_assert(sizeof(SceneVertex) == 20);
 
 constexpr const char* kObjectVertex = R"(#version 450 core
 layout(location = 0) in vec3 position;
@@ -54,7 +54,7 @@ std::string ground_fragment(const Lighting& lighting) {
          glsl_vec3(srgb_encode(lighting.ground_color)) + ", 0); }\n";
 }
 
-Vertex make_vertex(const glm::vec3& position, const glm::vec3& normal) {
+SceneVertex make_vertex(const glm::vec3& position, const glm::vec3& normal) {
   const auto quantise = [](float x) {
     return static_cast<std::int16_t>(std::lround(glm::clamp(x, -1.0f, 1.0f) * 32767));
   };
@@ -91,7 +91,7 @@ SceneRenderer::SceneRenderer(const Gl& gl, const Scene& scene,
 }
 
 void SceneRenderer::upload(const std::vector<MeshLevels>& levels) {
-  std::vector<Vertex> vertices;
+  std::vector<SceneVertex> vertices;
   std::vector<Triangle> triangles;
   for (const MeshLevels& of_mesh : levels) {
     std::vector<Range>& ranges = ranges_.emplace_back();
@@ -111,10 +111,10 @@ void SceneRenderer::upload(const std::vector<MeshLevels>& levels) {
   }
   vertices_ = make_buffer(gl_, vertices);
   indices_ = make_buffer(gl_, triangles);
-  gl_.VertexArrayVertexBuffer(array_.id(), 0, vertices_.id(), 0, sizeof(Vertex));
+  gl_.VertexArrayVertexBuffer(array_.id(), 0, vertices_.id(), 0, sizeof(SceneVertex));
   gl_.VertexArrayElementBuffer(array_.id(), indices_.id());
-  array_.set_attribute(0, 3, GL_FLOAT, GL_FALSE, offsetof(Vertex, position));
-  array_.set_attribute(1, 3, GL_SHORT, GL_TRUE, offsetof(Vertex, normal));
+  array_.set_attribute(0, 3, GL_FLOAT, GL_FALSE, offsetof(SceneVertex, position));
+  array_.set_attribute(1, 3, GL_SHORT, GL_TRUE, offsetof(SceneVertex, normal));
 }
 
 SceneRenderer::Program SceneRenderer::make_program(const Lighting& lighting,

@@ -12,7 +12,7 @@
 namespace viewcell {
 namespace {
 
-constexpr std::int64_t kMostBytes = 1LL << 40;
+constexpr std::int64_t kMostBufferBytes = 1LL << 40;
 
 // ---- the file's parts ----
 
@@ -114,7 +114,7 @@ void load_buffers(const Parts& parts, GltfFile& gltf) {
       gltf.buffers.emplace_back(parts.binary);
     else
       buffer.fail("has no \"uri\"");
-    const std::int64_t n_bytes = buffer.at("byteLength").integer(1, kMostBytes);
+    const std::int64_t n_bytes = buffer.at("byteLength").integer(1, kMostBufferBytes);
     if (static_cast<std::uint64_t>(n_bytes) > gltf.buffers.back().size())
       buffer.fail("says " + std::to_string(n_bytes) + " bytes and has " +
                   std::to_string(gltf.buffers.back().size()));
@@ -152,7 +152,7 @@ JsonCursor accessor_at(const GltfFile& gltf, std::int64_t id) {
 }
 
 std::int64_t optional_integer(const JsonCursor& object, const char* key, std::int64_t fallback) {
-  return object.has(key) ? object.at(key).integer(0, kMostBytes) : fallback;
+  return object.has(key) ? object.at(key).integer(0, kMostBufferBytes) : fallback;
 }
 
 JsonCursor view_at(const GltfFile& gltf, std::int64_t id) {
@@ -163,7 +163,7 @@ std::string_view bytes_of_view(const GltfFile& gltf, const JsonCursor& view) {
   const auto buffer_id = static_cast<std::size_t>(view.at("buffer").integer(0, 1 << 30));
   if (buffer_id >= gltf.buffers.size()) view.at("buffer").fail("no such buffer");
   const auto start = static_cast<std::size_t>(optional_integer(view, "byteOffset", 0));
-  const auto n_bytes = static_cast<std::size_t>(view.at("byteLength").integer(1, kMostBytes));
+  const auto n_bytes = static_cast<std::size_t>(view.at("byteLength").integer(1, kMostBufferBytes));
   const std::string_view buffer = gltf.buffers[buffer_id];
   if (start + n_bytes > buffer.size()) view.fail("is past its buffer's end");
   return buffer.substr(start, n_bytes);

@@ -9,7 +9,7 @@
 namespace viewcell {
 namespace {
 
-constexpr std::uint64_t kMostBytes = 4ULL << 30;
+constexpr std::uint64_t kMostInflatedBytes = 4ULL << 30;
 constexpr std::uint64_t kFreeBytes = 64ULL << 20;
 constexpr std::uint64_t kMostRatio = 100;  // deflate can reach 1032; text of numbers stays under 10
 
@@ -30,7 +30,7 @@ class Inflater {
 }  // namespace
 
 std::string gunzip(std::string_view bytes, const std::filesystem::path& file) {
-  const std::uint64_t most = std::min(kMostBytes, kFreeBytes + kMostRatio * bytes.size());
+  const std::uint64_t most = std::min(kMostInflatedBytes, kFreeBytes + kMostRatio * bytes.size());
   Inflater inflater;
   z_stream& stream = inflater.stream;
   std::string out;

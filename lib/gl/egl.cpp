@@ -12,7 +12,7 @@
 namespace viewcell {
 namespace {
 
-constexpr const char* kSoname = "libEGL.so.1";
+constexpr const char* kEglSoname = "libEGL.so.1";
 
 struct Egl {
   decltype(&eglGetProcAddress) get_proc_address;
@@ -30,9 +30,9 @@ struct Egl {
 };
 
 Egl open_egl() {
-  void* library = open_library(kSoname, "libegl1 libegl-mesa0");
+  void* library = open_library(kEglSoname, "libegl1 libegl-mesa0");
   const auto find = [&]<typename Function>(Function& function, const char* name) {
-    function = reinterpret_cast<Function>(find_symbol(library, kSoname, name));
+    function = reinterpret_cast<Function>(find_symbol(library, kEglSoname, name));
   };
   Egl egl{};
   find(egl.get_proc_address, "eglGetProcAddress");

@@ -11,7 +11,7 @@
 namespace viewcell {
 namespace {
 
-constexpr const char* kSoname = "libOSMesa.so.8";
+constexpr const char* kOsmesaSoname = "libOSMesa.so.8";
 // OSMesaMakeCurrent wants a real buffer; nothing is ever drawn into it.
 constexpr int kDummySize = 64;
 
@@ -23,9 +23,9 @@ struct Osmesa {
 };
 
 Osmesa open_osmesa() {
-  void* library = open_library(kSoname, "libosmesa6");
+  void* library = open_library(kOsmesaSoname, "libosmesa6");
   const auto find = [&]<typename Function>(Function& function, const char* name) {
-    function = reinterpret_cast<Function>(find_symbol(library, kSoname, name));
+    function = reinterpret_cast<Function>(find_symbol(library, kOsmesaSoname, name));
   };
   Osmesa osmesa{};
   find(osmesa.create_context_attribs, "OSMesaCreateContextAttribs");

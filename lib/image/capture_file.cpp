@@ -24,7 +24,7 @@ constexpr const char* kNoteName = "viewcellPart";
 // for 2 % less, level 6 twice the time; rle takes 0.06 s for 9 bytes, zips and piz lose both ways.
 constexpr const char* kCompression = "zip:2";
 // zlib turns one byte into at most 1032.
-constexpr std::uint64_t kMostInflation = 1032;
+constexpr std::uint64_t kMostExrInflation = 1032;
 
 // A pixel as OpenImageIO hands it over: the file's channels in the order R, G, B, A, Z.
 struct Pixel {
@@ -196,7 +196,7 @@ void check_total(const std::vector<CapturePartHeader>& parts, const std::string&
   const std::uint64_t size = std::filesystem::file_size(file, error);
   std::uint64_t n_bytes = 0;
   for (const CapturePartHeader& h : parts) n_bytes += n_pixels(h) * sizeof(Pixel);
-  if (error || n_bytes / kMostInflation > size)
+  if (error || n_bytes / kMostExrInflation > size)
     throw InputError(
         file, "header",
         std::to_string(n_bytes) + " bytes of pixels in a file of " + std::to_string(size));

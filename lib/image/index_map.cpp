@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 constexpr const char* kNameOfU = "texcoord.u";
 constexpr const char* kNameOfV = "texcoord.v";
 // What a byte of a compressed file can turn into: zlib makes 1032 of it, LZW not quite 4096.
-constexpr std::uint64_t kMostInflation = 4096;
+constexpr std::uint64_t kMostMapInflation = 4096;
 
 // --- writing ---
 
@@ -105,7 +105,7 @@ void check_map_spec(const MemoryInput& picture, const std::string& file) {
 // What decoding would allocate, against what the file's bytes can hold.
 void check_inflation(const OIIO::ImageSpec& spec, std::size_t n_file_bytes,
                      const std::string& file) {
-  if (spec.image_bytes(true) / kMostInflation > n_file_bytes)
+  if (spec.image_bytes(true) / kMostMapInflation > n_file_bytes)
     throw InputError(file, "header",
                      std::to_string(spec.image_bytes(true)) + " bytes of pixels in a file of " +
                          std::to_string(n_file_bytes));

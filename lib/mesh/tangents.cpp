@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <glm/gtx/exterior_product.hpp>
 #include <tuple>
 
 #include "base/error.h"
@@ -30,7 +31,7 @@ CornerTangent tangent_of_triangle(const TriMesh& mesh, std::size_t t) {
   const glm::dvec2 a = glm::dvec2(mesh.texcoords[3 * t + 1]) - uv;
   const glm::dvec2 b = glm::dvec2(mesh.texcoords[3 * t + 2]) - uv;
   const glm::dvec3 p(mesh.positions[v[0]]);
-  const double area = a.x * b.y - a.y * b.x;
+  const double area = glm::cross(a, b);
   if (!(std::abs(area) > 0) || !std::isfinite(area)) return {};
   const int side = area > 0 ? 1 : -1;
   const glm::dvec3 along =

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <numbers>
 
 #include "base/random.h"
 #include "scene/camera.h"
@@ -10,8 +11,7 @@
 namespace viewcell {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
-constexpr double kColumnRad = 2 * kPi / Panorama::kColumns;
+constexpr double kColumnRad = 2 * std::numbers::pi / Panorama::kColumns;
 // Squares of half a sample's share of the surface would leave holes where samples happen to be
 // sparse, but the surface's far side fills most; found against drawn frames (walk_test).
 constexpr double kRadiusInSpacings = 0.33;
@@ -26,12 +26,12 @@ std::uint64_t bits_between(int lo, int hi) {
 
 }  // namespace
 
-SurfaceSamples sample_surface(const TriMesh& mesh, int n) {
+CoverageSamples sample_surface(const TriMesh& mesh, int n) {
   std::vector<double> area_up_to;
   double area = 0;
   for (const Triangle& t : mesh.triangles)
     area_up_to.push_back(area += 0.5 * glm::length(area_normal(mesh, t)));
-  SurfaceSamples samples;
+  CoverageSamples samples;
   Random random(static_cast<std::uint64_t>(n));
   for (int i = 0; i < n; ++i) {  // one in each n-th of the area
     const double at = area * (i + random.uniform()) / n;
@@ -48,7 +48,7 @@ SurfaceSamples sample_surface(const TriMesh& mesh, int n) {
   return samples;
 }
 
-void Panorama::draw(const SurfaceSamples& samples, double yaw_rad, const glm::dvec3& translation) {
+void Panorama::draw(const CoverageSamples& samples, double yaw_rad, const glm::dvec3& translation) {
   const double c = std::cos(yaw_rad), s = std::sin(yaw_rad);
   const glm::dvec3 offset = translation - eye_;
   for (const glm::vec3& p : samples.points) {

@@ -11,20 +11,20 @@ namespace viewcell {
 
 /// Points spread evenly over a mesh's surface, and the half side of the squares that, set at them,
 /// look like the mesh from afar.
-struct SurfaceSamples {
+struct CoverageSamples {
   std::vector<glm::vec3> points;
   float radius = 0;
 };
 
 /// n points, by area; the same for the same mesh.
-SurfaceSamples sample_surface(const TriMesh& mesh, int n);
+CoverageSamples sample_surface(const TriMesh& mesh, int n);
 
 /// Everything around an eye, as bits: columns half a degree apart, rows by the slope up or down.
 class Panorama {
  public:
   explicit Panorama(const glm::dvec3& eye) : eye_(eye) {}
   /// Draws samples turned by yaw_rad about z, then moved.
-  void draw(const SurfaceSamples& samples, double yaw_rad, const glm::dvec3& translation);
+  void draw(const CoverageSamples& samples, double yaw_rad, const glm::dvec3& translation);
   /// The share of a square frame, kFovYDeg wide, level and centred on yaw_rad, that is covered.
   /// Within about a tenth of itself on the average of many frames.
   double coverage(double yaw_rad) const;

@@ -1,13 +1,12 @@
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "park/figure_dragon.h"
 #include "park/figures.h"
 
 namespace viewcell {
 namespace {
-
-constexpr float kPi = 3.14159265f;
 
 // The spine from the tail's tip to the nape.
 const std::vector<Knot>& spine() {
@@ -63,7 +62,7 @@ void add_scales(Figure& figure) {
     std::vector<Solid> scales;
     for (int i = 0; i < kAround; ++i) {
       const float u = (static_cast<float>(i) + (row % 2 == 0 ? 0.25f : 0.75f)) / kAround - 0.5f;
-      const float angle = u * 1.5f * kPi;
+      const float angle = u * 1.5f * std::numbers::pi_v<float>;
       const glm::vec3 out = std::cos(angle) * f.back + std::sin(angle) * f.side;
       const glm::vec3 normal = glm::normalize(out + 0.30f * f.along);  // tips stand off, tailwards
       const glm::vec3 across = glm::normalize(glm::cross(f.along, out));

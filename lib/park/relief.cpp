@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "base/random.h"
 
@@ -59,10 +60,11 @@ class RandomWaves {
   RandomWaves(const glm::dvec3& wavelength, std::uint64_t seed) {
     Random random(seed);
     for (Wave& wave : waves_) {
-      const double z = random.uniform(-1, 1), angle = random.uniform(0, 2 * kPi);
+      const double z = random.uniform(-1, 1), angle = random.uniform(0, 2 * std::numbers::pi);
       const double r = std::sqrt(1 - z * z);
-      wave.k = 2 * kPi * glm::dvec3(r * std::cos(angle), r * std::sin(angle), z) / wavelength;
-      wave.phase = random.uniform(0, 2 * kPi);
+      wave.k = 2 * std::numbers::pi * glm::dvec3(r * std::cos(angle), r * std::sin(angle), z) /
+               wavelength;
+      wave.phase = random.uniform(0, 2 * std::numbers::pi);
     }
   }
   double value(const glm::dvec3& p) const {
@@ -72,7 +74,6 @@ class RandomWaves {
   }
 
  private:
-  static constexpr double kPi = 3.14159265358979323846;
   static constexpr int kWaves = 32;
   struct Wave {
     glm::dvec3 k{0};

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "base/error.h"
 #include "base/random.h"
@@ -9,7 +10,6 @@
 namespace viewcell {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kGap = 14;    // between footprints, in the park's units
 constexpr double kMargin = 2;  // between footprints and the area's edge
 constexpr int kAttempts = 100000;
@@ -48,7 +48,7 @@ SceneObject random_object(Random& random) {
   const double x = kParkArea.lo.x + size.x * random.uniform();
   const double y = kParkArea.lo.y + size.y * random.uniform();
   object.translation = {x, y, 0};
-  const double half = kPi * random.uniform();
+  const double half = std::numbers::pi * random.uniform();
   object.rotation = glm::dquat(std::cos(half), 0, 0, std::sin(half));
   return object;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
 #include <set>
 
@@ -14,7 +15,6 @@
 namespace viewcell {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kSpeed = 27, kDuration = 72;  // units/s, s
 constexpr double kSampleStep = 0.25;           // s between the path's samples
 constexpr double kSampleLength = kSpeed * kSampleStep;
@@ -29,14 +29,14 @@ constexpr double kHalfViewDeg = 25;   // an object this far off the gaze is well
 constexpr double kLargeBonus = 0.5;   // of looking at a dragon or bunny in the eye's own cell
 constexpr int kBatch = 8, kBatches = 40;
 // Coverage that walks aim at, somewhat above the least that they must have.
-constexpr std::array<double, kParkSizes> kWanted{0.07, 0.11, 0.17};
+constexpr std::array<double, kParkSizes> kWantedCoverage{0.07, 0.11, 0.17};
 constexpr std::array<double, kParkSizes> kLeast{0.06, 0, 0.15};
 
 // What candidates are judged by, the same for all.
 struct Judge {
   const Ground& ground;
   const std::vector<SceneMesh>& meshes;
-  std::vector<SurfaceSamples> near_samples, far_samples;  // per mesh
+  std::vector<CoverageSamples> near_samples, far_samples;  // per mesh
 };
 
 using Panoramas = std::array<Panorama, kParkSizes>;
@@ -89,7 +89,8 @@ ConvexPolygon cell_corners(const CellPlace& cell) {
   ConvexPolygon corners;
   for (int k = 0; k < 6; ++k)
     corners.push_back(cell_centre(cell) +
-                      kCellSize * glm::dvec2(std::cos(k * kPi / 3), std::sin(k * kPi / 3)));
+                      kCellSize * glm::dvec2(std::cos(k * std::numbers::pi / 3),
+                                             std::sin(k * std::numbers::pi / 3)));
   return corners;
 }
 
@@ -147,7 +148,7 @@ double interest(double coverage, double wanted) {
 
 bool is_near_gaze(const glm::dvec3& eye, double yaw_rad, const SceneObject& object) {
   const glm::dvec2 way = glm::dvec2(object.translation) - glm::dvec2(eye);
-  const double off = std::remainder(std::atan2(way.y, way.x) - yaw_rad, 2 * kPi);
+  const double off = std::remainder(std::atan2(way.y, way.x) - yaw_rad, 2 * std::numbers::pi);
   return std::abs(glm::degrees(off)) < kHalfViewDeg;
 }
 
@@ -159,9 +160,10 @@ bool is_large(const Ground& ground, std::size_t i) {
 Prospect make_prospect(const Ground& ground, const Moment& moment, const Panoramas& view) {
   Prospect prospect{moment.heading_rad, {}};
   for (int d = 0; d < kDirections; ++d) {
-    const double yaw = 2 * kPi * d / kDirections;
+    const double yaw = 2 * std::numbers::pi * d / kDirections;
     double sum = 0;
-    for (const std::size_t size : {0, 2}) sum += interest(view[size].coverage(yaw), kWanted[size]);
+    for (const std::size_t size : {0, 2})
+      sum += interest(view[size].coverage(yaw), kWantedCoverage[size]);
     for (const std::size_t i : moment.inside)
       if (is_large(ground, i) && is_near_gaze(moment.eye, yaw, ground.objects[i]))
         sum += kLargeBonus;
@@ -234,7 +236,8 @@ bool is_good(const WalkReport& r) {
 // What tells good walks apart: statues as near as on the paper's path, not nearer, and few
 // triangles of objects inside the eye's cell, which every frame there must draw.
 double cost_of(const WalkReport& r) {
-  return std::abs(r.coverage[0] / kWanted[0] - 1) + std::abs(r.coverage[2] / kWanted[2] - 1) +
+  return std::abs(r.coverage[0] / kWantedCoverage[0] - 1) +
+         std::abs(r.coverage[2] / kWantedCoverage[2] - 1) +
          (r.triangles_inside[0] + r.triangles_inside[2]) / 1e4;
 }
 
@@ -248,7 +251,7 @@ struct Candidate {
 std::optional<Candidate> make_candidate(const Judge& judge, std::uint64_t seed) {
   Random random(seed);
   Candidate candidate;
-  candidate.phase = random.uniform(0, 2 * kPi);
+  candidate.phase = random.uniform(0, 2 * std::numbers::pi);
   candidate.route = make_route(judge.ground, random, kSpeed * kDuration, kSampleLength, kClearance);
   if (candidate.route.empty()) return {};
   candidate.moments = place_moments(judge.ground, candidate.route, candidate.phase);
@@ -289,7 +292,7 @@ std::span<const Moment> choose_piece(const Ground& ground, std::span<const Momen
       const auto piece = all.subspan(first, n);
       const WalkReport report = measure(ground, piece);
       if (report.n_cells > 14) break;
-      const double value = -std::abs(report.coverage[1] / kWanted[1] - 1) -
+      const double value = -std::abs(report.coverage[1] / kWantedCoverage[1] - 1) -
                            report.triangles_inside[1] / 5e3 - (is_good_piece(report) ? 0 : 1e3);
       if (report.n_cells >= 12 && value > most) most = value, best = piece;
     }

@@ -2,23 +2,24 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace viewcell {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kTurnWeight = 0.01;  // loss of interest for turning by one direction, square law
 
 double wrap(double angle) {
-  return std::remainder(angle, 2 * kPi);
+  return std::remainder(angle, 2 * std::numbers::pi);
 }
 
 // For each direction, its interest less what it loses for being off the heading.
 std::vector<double> value_of(const Prospect& prospect, double ahead_weight) {
   std::vector<double> value = prospect.interest;
-  const double step = 2 * kPi / static_cast<double>(value.size());
+  const double step = 2 * std::numbers::pi / static_cast<double>(value.size());
   for (std::size_t d = 0; d < value.size(); ++d) {
-    const double off = wrap(static_cast<double>(d) * step - prospect.heading_rad) / (kPi / 3);
+    const double off =
+        wrap(static_cast<double>(d) * step - prospect.heading_rad) / (std::numbers::pi / 3);
     value[d] -= ahead_weight * off * off;
   }
   return value;
@@ -56,7 +57,7 @@ std::vector<int> best_sequence(std::span<const Prospect> prospects, const GazeOp
 }  // namespace
 
 std::vector<double> choose_gaze(std::span<const Prospect> prospects, const GazeOptions& options) {
-  const double step = 2 * kPi / static_cast<double>(prospects[0].interest.size());
+  const double step = 2 * std::numbers::pi / static_cast<double>(prospects[0].interest.size());
   std::vector<double> yaw;
   for (const int d : best_sequence(prospects, options)) {
     const double angle = d * step;

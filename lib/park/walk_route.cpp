@@ -10,7 +10,7 @@ namespace {
 constexpr double kBandStep = 12;  // between the points of the band that becomes the route
 constexpr int kBandRounds = 70;   // of smoothing; each point then depends on some 100 units around
 constexpr double kEdge = 60;      // the route keeps this far from the area's edge
-constexpr double kWanted = 13;    // clearance that the band is pushed to
+constexpr double kWantedClearance = 13;  // clearance that the band is pushed to
 // A stop is passed between kNear and kFar from its footprint's circle; a large one nearer.
 constexpr double kNear = 16, kFar = 70, kFarLarge = 32;
 
@@ -84,9 +84,9 @@ glm::dvec2 push_away(const Ground& ground, const glm::dvec2& p) {
   for (std::size_t i = 0; i < ground.objects.size(); ++i) {
     const glm::dvec2 away = p - glm::dvec2(ground.objects[i].translation);
     const double far = glm::length(away);
-    if (far > ground.radii[i] + kWanted || far < 1e-9) continue;
+    if (far > ground.radii[i] + kWantedClearance || far < 1e-9) continue;
     const double gap = distance({p}, ground.footprints[i]);
-    if (gap < kWanted) push += 0.5 * (kWanted - gap) / far * away;
+    if (gap < kWantedClearance) push += 0.5 * (kWantedClearance - gap) / far * away;
   }
   return push;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/gtx/exterior_product.hpp>
 
 namespace viewcell {
 namespace {
@@ -28,7 +29,7 @@ double half_azimuth_rad(const Camera& camera) {
     const glm::dvec2 ray(camera.forward + side * right + y * above);
     const double along = glm::dot(ray, ahead);
     if (along < 0.05) return 3.2;
-    widest = std::max(widest, std::atan2(std::abs(ray.x * ahead.y - ray.y * ahead.x), along));
+    widest = std::max(widest, std::atan2(std::abs(glm::cross(ray, ahead)), along));
   }
   return widest;
 }
@@ -104,7 +105,7 @@ std::uint8_t find_visible_windows(const HexGrid& grid, CellId cell, const Camera
       const glm::dvec2 edge(c * ahead.x - s * ahead.y, s * ahead.x + c * ahead.y);
       const auto beyond = [&](const glm::dvec2& p) {
         const glm::dvec2 d = p - eye;
-        return sign * (edge.x * d.y - edge.y * d.x) > 1e-9 * grid.size;
+        return sign * glm::cross(edge, d) > 1e-9 * grid.size;
       };
       return beyond(corners[face]) && beyond(corners[(face + 1) % 6]);
     };

@@ -2,13 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/gtx/exterior_product.hpp>
 
 namespace viewcell {
 namespace {
 
 double area(const TexelTriangle& p) {
-  const glm::dvec2 a = glm::dvec2(p[1]) - glm::dvec2(p[0]), b = glm::dvec2(p[2]) - glm::dvec2(p[0]);
-  return std::abs(a.x * b.y - a.y * b.x) / 2;
+  const glm::dvec2 a(p[0]);
+  return std::abs(glm::cross(glm::dvec2(p[1]) - a, glm::dvec2(p[2]) - a)) / 2;
 }
 
 }  // namespace

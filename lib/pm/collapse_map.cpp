@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <glm/gtx/exterior_product.hpp>
 #include <limits>
 
 #include "mesh/closest_point.h"
@@ -16,10 +17,6 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // In the texture u keeps this far from the edges of its new face, as a weight of a corner: cells
 // at an edge would vanish.
 constexpr double kInside = 1.0 / 16384;
-
-double cross2(const glm::dvec2& a, const glm::dvec2& b) {
-  return a.x * b.y - a.y * b.x;
-}
 
 // Weights of a point of a triangle, not below 0; of one corner where the triangle has no area.
 glm::dvec3 barycentric(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3& b,
@@ -123,9 +120,9 @@ void CollapseMap::choose_by_texture(const Sector& sector, Place& place) const {
   const CollapseStar::Rim& v = rim[0];
   for (std::size_t j = 1; j + 1 < sector.rim.size(); ++j) {
     const CollapseStar::Rim &b = rim[j], &c = rim[j + 1];
-    const double area = cross2(b.uv - v.uv, c.uv - v.uv);
+    const double area = glm::cross(b.uv - v.uv, c.uv - v.uv);
     if (area == 0) continue;
-    glm::dvec3 w(cross2(b.uv, c.uv), cross2(c.uv, v.uv), cross2(v.uv, b.uv));
+    glm::dvec3 w(glm::cross(b.uv, c.uv), glm::cross(c.uv, v.uv), glm::cross(v.uv, b.uv));
     w /= area;
     const double inside = std::min({w.x, w.y, w.z});
     if (!(inside > best)) continue;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/gtx/exterior_product.hpp>
 
 #include "pm/nearest.h"
 
@@ -10,10 +11,6 @@ namespace {
 
 // Boxes are rounded outwards by this share: a float's last digit and some for the sums before.
 constexpr float kOutward = 1e-6f;
-
-double cross2(const glm::dvec2& a, const glm::dvec2& b) {
-  return a.x * b.y - a.y * b.x;
-}
 
 // The least distance of corners along an edge, and of its ends, as a share of it: cells keep some
 // area, and no texel moves that need not.
@@ -129,9 +126,9 @@ FanOverlay::Corner FanOverlay::cross(const Ray& old_edge, const Ray& new_edge) {
   double s = 0, t = 0;
   if (matching_ == Matching::texture) {
     const glm::dvec2 a = old_edge.texture, b = new_edge.texture - apex_texture_;
-    const double det = cross2(a, b);
-    s = det != 0 ? std::clamp(cross2(apex_texture_, b) / det, 0.0, 1.0) : 0.5;
-    t = det != 0 ? std::clamp(cross2(apex_texture_, a) / det, 0.0, 1.0) : 0.5;
+    const double det = glm::cross(a, b);
+    s = det != 0 ? std::clamp(glm::cross(apex_texture_, b) / det, 0.0, 1.0) : 0.5;
+    t = det != 0 ? std::clamp(glm::cross(apex_texture_, a) / det, 0.0, 1.0) : 0.5;
   } else {
     closest_on_segments({.aa = old_edge.to2,
                          .bb = new_edge.from_apex2,

@@ -272,6 +272,12 @@ std::string check_splits(const ProgressiveRecord& r) {
 
 }  // namespace
 
+ProgressiveMesh make_finest(const ProgressiveRecord& record) {
+  ProgressiveMesh mesh(record);
+  mesh.set_level(mesh.n_splits());
+  return mesh;
+}
+
 std::string check_record(const ProgressiveRecord& record) {
   const std::size_t n_wedges = record.attributes.positions.size() + record.extra_sources.size();
   for (const auto& check : {check_counts, check_ranges})

@@ -103,6 +103,9 @@ class ProgressiveMesh {
   std::size_t at_born_ = 0, at_moved_ = 0, at_pair_ = 0;  // of the next split
 };
 
+/// A progressive mesh at the input, with all splits made.
+ProgressiveMesh make_finest(const ProgressiveRecord& record);
+
 /// Whether every number of the record is in range and the splits can be made one after another.
 /// Returns what is wrong, or an empty string. Time and memory in proportion to the record.
 std::string check_record(const ProgressiveRecord& record);

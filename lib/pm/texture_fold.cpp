@@ -1,11 +1,12 @@
 #include "pm/texture_fold.h"
 
+#include <glm/gtx/exterior_product.hpp>
+
 namespace viewcell {
 namespace {
 
 double area2(const glm::vec2& a, const glm::vec2& b, const glm::vec2& c) {
-  const glm::dvec2 p = glm::dvec2(b) - glm::dvec2(a), q = glm::dvec2(c) - glm::dvec2(a);
-  return p.x * q.y - p.y * q.x;
+  return glm::cross(glm::dvec2(b) - glm::dvec2(a), glm::dvec2(c) - glm::dvec2(a));
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 namespace viewcell {
 namespace {
 
-constexpr const char* kFormat = "viewcell-path";
+constexpr const char* kPathFormat = "viewcell-path";
 constexpr double kMostVertical = 0.999;  // |forward.z| beyond which "up" is undefined
 
 glm::dvec3 vec3_at(const JsonCursor& cursor) {
@@ -58,7 +58,7 @@ glm::dmat4 clip_from_view(const Camera& camera) {
 }
 
 CameraPath read_path(const std::filesystem::path& file) {
-  const Json json = read_json(file, kFormat, 1);
+  const Json json = read_json(file, kPathFormat, 1);
   const JsonCursor root(json, file);
   const JsonCursor samples = root.at("samples");
   const std::size_t n = samples.size();
@@ -78,7 +78,7 @@ Json format_path(const CameraPath& path, const Json& provenance) {
     samples.push_back({{"time_s", s.time_s},
                        {"eye", {s.eye.x, s.eye.y, s.eye.z}},
                        {"forward", {s.forward.x, s.forward.y, s.forward.z}}});
-  return {{"format", kFormat},
+  return {{"format", kPathFormat},
           {"version", 1},
           {"made_by", provenance},
           {"fov_y_deg", kFovYDeg},

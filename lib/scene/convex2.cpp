@@ -1,6 +1,7 @@
 #include "scene/convex2.h"
 
 #include <algorithm>
+#include <glm/gtx/exterior_product.hpp>
 #include <limits>
 #include <tuple>
 
@@ -8,7 +9,7 @@ namespace viewcell {
 namespace {
 
 double cross(const glm::dvec2& o, const glm::dvec2& a, const glm::dvec2& b) {
-  return (a.x - o.x) * (b.y - o.y) - (a.y - o.y) * (b.x - o.x);
+  return glm::cross(a - o, b - o);
 }
 
 double distance_to_segment(const glm::dvec2& p, const glm::dvec2& a, const glm::dvec2& b) {

@@ -11,7 +11,7 @@
 namespace viewcell {
 namespace {
 
-constexpr const char* kFormat = "viewcell-scene";
+constexpr const char* kSceneFormat = "viewcell-scene";
 constexpr double kMaxCoordinate = 1e7;   // beyond it, float geometry has lost the park's detail
 constexpr double kUnitTolerance = 1e-3;  // a direction or quaternion written with few digits
 constexpr double kMinScale = 1e-9, kMaxScale = 1e9;
@@ -196,7 +196,7 @@ void load_meshes(const std::filesystem::path& file, const ReadSceneOptions& opti
 }  // namespace
 
 Scene read_scene(const std::filesystem::path& file, const ReadSceneOptions& options) {
-  const Json json = read_json(file, kFormat, 1);
+  const Json json = read_json(file, kSceneFormat, 1);
   const JsonCursor root(json, file);
   Scene scene;
   scene.name = root.at("name").string();
@@ -221,7 +221,7 @@ Scene read_scene(const std::filesystem::path& file, const ReadSceneOptions& opti
 Json format_scene(const Scene& scene, const Json& provenance) {
   const Lighting& l = scene.lighting;
   return {
-      {"format", kFormat},
+      {"format", kSceneFormat},
       {"version", 1},
       {"made_by", provenance},
       {"name", scene.name},

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "base/error.h"
 #include "uv/parameterize.h"
@@ -10,8 +11,7 @@
 namespace viewcell {
 namespace {
 
-constexpr double kTurn = 6.283185307179586;
-constexpr double kLeastShare = 0.01;  // of a triangle's area that must remain
+constexpr double kLeastAreaShare = 0.01;  // of a triangle's area that must remain
 constexpr int kBisections = 20;
 
 // The functions below are of points in [-1, 1]^2.
@@ -19,7 +19,7 @@ constexpr int kBisections = 20;
 // (1 - r)^2 turns of the strength: flat at the rim, so the swirl has no crease there.
 glm::dvec2 swirl(const glm::dvec2& p, double strength) {
   const double inward = std::max(0.0, 1 - glm::length(p));
-  const double angle = kTurn * strength * inward * inward;
+  const double angle = 2 * std::numbers::pi * strength * inward * inward;
   const double c = std::cos(angle), s = std::sin(angle);
   return {c * p.x - s * p.y, s * p.x + c * p.y};
 }
@@ -50,7 +50,7 @@ bool is_one_to_one(const TriMesh& mesh, const std::vector<glm::dvec2>& before,
     const glm::dvec2 centre = (before[t[0]] + before[t[1]] + before[t[2]]) / 3.0;
     const double expected = float_area(before, t) * area_scale(centre, distortion, strength);
     const double area = float_area(after, t);
-    return area > 0 && area >= kLeastShare * expected;
+    return area > 0 && area >= kLeastAreaShare * expected;
   });
 }
 

@@ -7,6 +7,7 @@
 #include <Eigen/SparseLU>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 #include <tuple>
 
@@ -17,11 +18,10 @@
 namespace viewcell {
 namespace {
 
-constexpr double kTurn = 6.283185307179586;
-constexpr double kBulge = 0.02;       // of a square's half side
-constexpr double kLeastShare = 0.05;  // of the mean boundary edge
-constexpr double kMostRatio = 1e6;    // of stretch in one step
-constexpr double kLeastTan = 1e-4;    // of half an angle; the most is its inverse
+constexpr double kBulge = 0.02;           // of a square's half side
+constexpr double kLeastEdgeShare = 0.05;  // of the mean boundary edge
+constexpr double kMostRatio = 1e6;        // of stretch in one step
+constexpr double kLeastTan = 1e-4;        // of half an angle; the most is its inverse
 
 // ---- boundary ----
 
@@ -33,7 +33,7 @@ std::vector<double> measure_shares(const TriMesh& mesh, const std::vector<std::u
                                     glm::dvec3(mesh.positions[loop[(i + 1) % loop.size()]])));
   const double mean =
       std::accumulate(lengths.begin(), lengths.end(), 0.0) / static_cast<double>(lengths.size());
-  for (double& length : lengths) length = mean > 0 ? std::max(length, kLeastShare * mean) : 1;
+  for (double& length : lengths) length = mean > 0 ? std::max(length, kLeastEdgeShare * mean) : 1;
   const double total = std::accumulate(lengths.begin(), lengths.end(), 0.0);
   std::vector<double> shares;
   double way = 0;
@@ -45,7 +45,7 @@ std::vector<double> measure_shares(const TriMesh& mesh, const std::vector<std::u
 }
 
 glm::dvec2 place_on_circle(double share) {
-  return {std::cos(kTurn * share), std::sin(kTurn * share)};
+  return {std::cos(2 * std::numbers::pi * share), std::sin(2 * std::numbers::pi * share)};
 }
 
 // From the lower left corner on. A side is a parabola, so that the curve is strictly convex.

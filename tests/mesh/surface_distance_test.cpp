@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 #include <glm/gtc/quaternion.hpp>
+#include <numbers>
 #include <numeric>
 
 #include "base/random.h"
@@ -17,8 +18,6 @@
 
 namespace viewcell {
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 // Corners lo and hi.
 TriMesh make_box(glm::vec3 lo, glm::vec3 hi) {
@@ -47,7 +46,7 @@ TriMesh make_sphere(std::uint32_t n, float radius) {
   TriMesh mesh;
   for (std::uint32_t i = 0; i <= n; ++i)
     for (std::uint32_t j = 0; j < 2 * n; ++j) {
-      const double a = kPi * i / n, b = kPi * j / n;
+      const double a = std::numbers::pi * i / n, b = std::numbers::pi * j / n;
       mesh.positions.push_back(
           radius * glm::vec3(std::sin(a) * std::cos(b), std::sin(a) * std::sin(b), std::cos(a)));
     }

@@ -18,13 +18,13 @@ TriMesh make_wall(float x, float half, float z) {
   return mesh;
 }
 
-TEST(SurfaceSamples, LieOnTheSurfaceByArea) {
+TEST(CoverageSamples, LieOnTheSurfaceByArea) {
   TriMesh mesh = make_wall(0, 1, 0);
   const std::uint32_t n = 4;
   for (const glm::vec3& p : make_wall(9, 2, 0).positions) mesh.positions.push_back(p);
   mesh.triangles.push_back({n, n + 1, n + 2});
   mesh.triangles.push_back({n, n + 2, n + 3});
-  const SurfaceSamples samples = sample_surface(mesh, 1000);
+  const CoverageSamples samples = sample_surface(mesh, 1000);
   int n_large = 0;
   for (const glm::vec3& p : samples.points) {
     const bool is_large = p.x > 4.5f;
@@ -36,8 +36,8 @@ TEST(SurfaceSamples, LieOnTheSurfaceByArea) {
 }
 
 // Without the far side of a statue to fill the gaps between samples, they must overlap.
-SurfaceSamples sample_closely(const TriMesh& mesh) {
-  SurfaceSamples samples = sample_surface(mesh, 40000);
+CoverageSamples sample_closely(const TriMesh& mesh) {
+  CoverageSamples samples = sample_surface(mesh, 40000);
   samples.radius *= 3.5f;
   return samples;
 }
@@ -48,7 +48,7 @@ TEST(Panorama, AWallCoversItsShareFromAllSides) {
   const double edge = std::tan(glm::radians(30.0));
   for (int i = 0; i < 60; ++i) {
     const double half = random.uniform(0.12, 0.9) * 50 * edge, yaw = random.uniform(-6, 6);
-    const SurfaceSamples samples = sample_closely(make_wall(50, static_cast<float>(half), 7));
+    const CoverageSamples samples = sample_closely(make_wall(50, static_cast<float>(half), 7));
     Panorama panorama({0, 0, 7});
     panorama.draw(samples, yaw, {0, 0, 0});
     const double share = std::pow(half / 50 / edge, 2);
@@ -64,7 +64,7 @@ TEST(Panorama, AWallThatFillsTheFrameCoversAll) {
 }
 
 TEST(Panorama, DrawingAgainChangesNothing) {
-  const SurfaceSamples samples = sample_surface(make_wall(50, 9, 0), 500);
+  const CoverageSamples samples = sample_surface(make_wall(50, 9, 0), 500);
   Panorama panorama({0, 0, 0});
   panorama.draw(samples, 0.4, {3, 1, 2});
   const double once = panorama.coverage(0.4);

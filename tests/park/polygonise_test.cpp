@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "mesh/repair.h"
 #include "park/random_figure.h"
@@ -85,9 +86,8 @@ TEST(Polygonise, ABallIsABall) {
   EXPECT_EQ(topology.euler_characteristic, 2);
   for (const glm::vec3& p : mesh.positions)
     EXPECT_NEAR(glm::length(p - glm::vec3(1, 2, 13)), 10, 0.01);
-  constexpr double kPi = 3.14159265358979;
-  EXPECT_NEAR(area_of(mesh) / (400 * kPi), 1, 0.005);
-  EXPECT_NEAR(volume_of(mesh) / (4000 * kPi / 3), 1, 0.005);
+  EXPECT_NEAR(area_of(mesh) / (400 * std::numbers::pi), 1, 0.005);
+  EXPECT_NEAR(volume_of(mesh) / (4000 * std::numbers::pi / 3), 1, 0.005);
 }
 
 TEST(Polygonise, ARingHasOneHoleAndAShellTwoSides) {

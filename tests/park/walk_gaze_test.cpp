@@ -3,14 +3,13 @@
 #include <cmath>
 #include <functional>
 #include <glm/glm.hpp>
+#include <numbers>
 
 #include "base/random.h"
 #include "park/walk_gaze.h"
 
 namespace viewcell {
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 std::vector<Prospect> make_prospects(std::size_t n,
                                      const std::function<double(std::size_t, int)>& interest) {
@@ -41,7 +40,8 @@ TEST(Gaze, NeverTurnsFasterThanAllowed) {
     SCOPED_TRACE(seed);
     Random random(seed);
     auto prospects = make_prospects(60, [&](std::size_t, int) { return 5 * random.uniform(); });
-    for (Prospect& p : prospects) p.heading_rad = random.uniform(-kPi, kPi);
+    for (Prospect& p : prospects)
+      p.heading_rad = random.uniform(-std::numbers::pi, std::numbers::pi);
     const std::vector<double> yaw = choose_gaze(prospects, {.step_s = 0.5, .max_turn_deg_s = 35});
     for (std::size_t t = 1; t < yaw.size(); ++t)
       EXPECT_LE(std::abs(glm::degrees(yaw[t] - yaw[t - 1])), 0.5 * 35 + 1e-9);
@@ -51,7 +51,7 @@ TEST(Gaze, NeverTurnsFasterThanAllowed) {
 TEST(Gaze, FollowsASightAcrossTheSeam) {  // from 170 to 190 degrees, not the long way round
   auto prospects =
       make_prospects(30, [](std::size_t t, int d) { return d == (t < 15 ? 34 : 38) ? 4.0 : 0.0; });
-  for (Prospect& p : prospects) p.heading_rad = kPi;
+  for (Prospect& p : prospects) p.heading_rad = std::numbers::pi;
   const std::vector<double> yaw = choose_gaze(prospects);
   EXPECT_NEAR(glm::degrees(yaw.back() - yaw.front()), 20, 1e-6);
 }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 #include <set>
 
 #include "park/park.h"
@@ -10,8 +11,6 @@
 
 namespace viewcell {
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 // The share of a frame of n x n pixels that the objects cover: each triangle rasterised.
 double draw_coverage(const std::vector<SceneMesh>& meshes, std::span<const SceneObject> objects,
@@ -79,7 +78,8 @@ ConvexPolygon hexagon_at(const glm::dvec2& p) {
       const glm::dvec2 centre(75 * column, 50 * std::sqrt(3.0) * (row + 0.5 * (column % 2)));
       ConvexPolygon corners;
       for (int k = 0; k < 6; ++k)
-        corners.push_back(centre + 50.0 * glm::dvec2(std::cos(k * kPi / 3), std::sin(k * kPi / 3)));
+        corners.push_back(centre + 50.0 * glm::dvec2(std::cos(k * std::numbers::pi / 3),
+                                                     std::sin(k * std::numbers::pi / 3)));
       if (contains(corners, p)) return corners;
     }
   ADD_FAILURE() << "no cell at " << p.x << " " << p.y;

@@ -137,20 +137,20 @@ void choose_format(const std::string& output, TexadaptArguments& a) {
   const std::string ending = ending_of(output);
   const bool is_map = ending == ".exr" || ending == ".tif" || ending == ".tiff";
   if (a.format_name == "glb" || (a.format_name.empty() && ending == ".glb"))
-    a.format = TextureFormat::glb;
+    a.format = LevelFormat::glb;
   else if (a.format_name.empty() && is_map && !a.bake)
-    a.format = TextureFormat::map;
-  if (a.format == TextureFormat::png && (a.bake || !a.format_name.empty()))
+    a.format = LevelFormat::map;
+  if (a.format == LevelFormat::png && (a.bake || !a.format_name.empty()))
     check_ending({"-o", output}, {".png"}, "a PNG");
-  if (a.format == TextureFormat::png)
+  if (a.format == LevelFormat::png)
     check_ending({"-o", output}, {".png", ".glb", ".exr", ".tif", ".tiff"},
                  "a texture, a GLB or an indexing map");
-  if (a.format == TextureFormat::glb) check_ending({"-o", output}, {".glb"}, "a GLB");
+  if (a.format == LevelFormat::glb) check_ending({"-o", output}, {".glb"}, "a GLB");
 }
 
 void check_combinations(const TexadaptArguments& a) {
   const bool has_map = a.engine != AdaptEngine::rebake && a.options.texel != TexelKind::texture;
-  if (!has_map && (!a.index_map.empty() || a.format == TextureFormat::map || !a.start.empty()))
+  if (!has_map && (!a.index_map.empty() || a.format == LevelFormat::map || !a.start.empty()))
     throw UsageError(a.engine == AdaptEngine::rebake
                          ? "--engine rebake has no indexing map"
                          : "--texels texture adapts the texture and has no indexing map");
@@ -162,11 +162,11 @@ void check_combinations(const TexadaptArguments& a) {
     throw UsageError("--texels texture adapts one texture; --also wants an indexing map");
   if (a.engine == AdaptEngine::rebake && (!a.log.empty() || !a.replay.empty()))
     throw UsageError("--engine rebake knows no adaptations: no --log, no --replay");
-  if (a.has_normal_map && a.normal_map.to.empty() && a.format != TextureFormat::glb)
+  if (a.has_normal_map && a.normal_map.to.empty() && a.format != LevelFormat::glb)
     throw UsageError("--normal-map IMAGE alone is for --format glb; elsewhere: IMAGE=OUT.png");
   if (a.options.texel == TexelKind::texture && !a.size.empty())
     throw UsageError("--size is of an indexing map; --texels texture has none");
-  if (a.format == TextureFormat::glb && !a.mesh.empty())
+  if (a.format == LevelFormat::glb && !a.mesh.empty())
     throw UsageError("--format glb holds the mesh: no --mesh");
 }
 
@@ -241,7 +241,7 @@ void finish_arguments(const Tool& tool, TexadaptArguments& a) {
   check_combinations(a);
   if (a.names_levels && tool.common().output == "-" && a.levels.size() > 1)
     throw UsageError("-o - takes one level");
-  if (a.names_levels && a.mesh.empty() && a.format != TextureFormat::glb &&
+  if (a.names_levels && a.mesh.empty() && a.format != LevelFormat::glb &&
       tool.common().output != "-")
     a.mesh = std::filesystem::path(tool.common().output).replace_extension(".ply").string();
   check_all_files(tool, a);

@@ -12,7 +12,7 @@
 namespace viewcell {
 
 enum class AdaptEngine { cpu, gl, rebake };
-enum class TextureFormat { png, glb, map };
+enum class LevelFormat { png, glb, map };
 
 /// A further texture, and where its like for a level goes.
 struct FurtherTexture {
@@ -29,7 +29,7 @@ struct TexadaptArguments {
   NormalMapOptions normal_map_options;
   std::vector<FurtherTexture> further;
   AdaptEngine engine = AdaptEngine::cpu;
-  TextureFormat format = TextureFormat::png;
+  LevelFormat format = LevelFormat::png;
   AdaptLevelsOptions options;
   bool allows_overlap = false;
 

@@ -26,7 +26,7 @@ std::vector<std::string> LevelWriter::comments_of(const std::string& file,
   namespace fs = std::filesystem;
   std::vector<std::string> out{format_comment()};
   const std::string output = a_.name_at(tool_.common().output, level);
-  if (a_.format == TextureFormat::png && output != "-")
+  if (a_.format == LevelFormat::png && output != "-")
     out.push_back("TextureFile " +
                   fs::path(output).lexically_proximate(fs::path(file).parent_path()).string());
   return out;
@@ -35,9 +35,9 @@ std::vector<std::string> LevelWriter::comments_of(const std::string& file,
 void LevelWriter::write_output(std::size_t level, const TriMesh& mesh, const IndexMap* map,
                                const ImageRgba8* normal_map, const Bake& bake) const {
   const std::string output = a_.name_at(tool_.common().output, level);
-  if (a_.format == TextureFormat::map)
+  if (a_.format == LevelFormat::map)
     write_index_map(output, *map, map_label(in_.hash, mesh.triangles.size()));
-  else if (a_.format == TextureFormat::png)
+  else if (a_.format == LevelFormat::png)
     write_png(output, bake(in_.texture));
   else
     write_glb(output, mesh,
