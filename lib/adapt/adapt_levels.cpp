@@ -1,7 +1,7 @@
 #include "adapt/adapt_levels.h"
 
-#include "adapt/bake_texture.h"
 #include "adapt/gl_texture_adapt.h"
+#include "adapt/resolve_index_map.h"
 #include "base/error.h"
 
 namespace viewcell {
@@ -144,7 +144,7 @@ ImageRgba8 AdaptLevels::bake() const {
 }
 
 ImageRgba8 AdaptLevels::bake(const ImageRgba8& texture, const IndexMap& map) const {
-  return bake_texture(map, texture, finest_, charts(), options_.adapt.n_threads);
+  return resolve_index_map(map, texture, finest_, charts(), options_.adapt.n_threads);
 }
 
 }  // namespace viewcell

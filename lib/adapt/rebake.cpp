@@ -8,7 +8,7 @@
 #include "base/error.h"
 #include "image/texel_spans.h"
 #include "mesh/closest_point.h"
-#include "mesh/repair.h"
+#include "mesh/topology.h"
 #include "uv/chart_map.h"
 #include "uv/gutter.h"
 #include "uv/triangle_map.h"

@@ -7,7 +7,7 @@
 #include <tuple>
 
 #include "base/error.h"
-#include "mesh/repair.h"
+#include "mesh/topology.h"
 
 // Follows: MikkTSpace [Mikkelsen 2008, Simulation of wrinkled surfaces revisited], which glTF 2.0
 // names in 3.7.2.1.

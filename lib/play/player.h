@@ -8,7 +8,7 @@
 #include "draw/raycast.h"
 #include "draw/scene_renderer.h"
 #include "gl/context.h"
-#include "play/floor.h"
+#include "play/floor_quad.h"
 #include "play/hybrid_renderer.h"
 
 namespace viewcell {

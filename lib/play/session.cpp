@@ -10,7 +10,7 @@
 #include "base/parallel.h"
 #include "image/io.h"
 #include "image/metrics.h"
-#include "play/floor.h"
+#include "play/floor_quad.h"
 
 namespace viewcell {
 namespace {

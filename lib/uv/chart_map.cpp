@@ -8,7 +8,7 @@
 #include "base/error.h"
 #include "image/texel_spans.h"
 #include "mesh/edges.h"
-#include "mesh/repair.h"
+#include "mesh/topology.h"
 
 namespace viewcell {
 namespace {

@@ -12,7 +12,7 @@
 
 #include "base/error.h"
 #include "mesh/edges.h"
-#include "mesh/repair.h"
+#include "mesh/topology.h"
 
 namespace viewcell {
 namespace {

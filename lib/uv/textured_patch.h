@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "mesh/repair.h"
+#include "mesh/topology.h"
 #include "uv/distort.h"
 #include "uv/parameterize.h"
 #include "uv/patch.h"

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "adapt/bake_texture.h"
+#include "adapt/resolve_index_map.h"
 #include "base/error.h"
 #include "pm/build.h"
 #include "pm/shapes.h"
@@ -77,7 +77,7 @@ TEST(AdaptLevels, GoThereAndBack) {
   EXPECT_NE(levels.bake().pixels, bump.texture.pixels);
   EXPECT_EQ(levels.bake().pixels, levels.bake(bump.texture).pixels);
   EXPECT_EQ(levels.bake().pixels,
-            bake_texture(map, bump.texture, levels.finest(), levels.charts()).pixels);
+            resolve_index_map(map, bump.texture, levels.finest(), levels.charts()).pixels);
   levels.set_faces(1000);
   EXPECT_EQ(levels.n_collapsed(), 0u);
   EXPECT_EQ(levels.bake().pixels, bump.texture.pixels);

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "adapt/bake_texture.h"
 #include "adapt/bump.h"
+#include "adapt/resolve_index_map.h"
 #include "mesh/closest_point.h"
 #include "pm/build.h"
 
@@ -184,10 +184,10 @@ TEST(BakeTexture, ShowsTheTextureThroughTheMap) {
       texture.at(x, y) = {static_cast<std::uint8_t>(4 * x), static_cast<std::uint8_t>(4 * y), 7,
                           255};
   const LevelCharts all{{{{{0, 0}, {2, 0}, {0, 2}}}}, {0}};
-  EXPECT_EQ(bake_texture(make_index_map<glm::vec2>(64, 64), texture, all, all).pixels,
+  EXPECT_EQ(resolve_index_map(make_index_map<glm::vec2>(64, 64), texture, all, all).pixels,
             texture.pixels);
   IndexMap map(2, 1, glm::vec2(0.5f, 0.5f));
-  const ImageRgba8 out = bake_texture(map, texture, all, all);
+  const ImageRgba8 out = resolve_index_map(map, texture, all, all);
   EXPECT_EQ(out.at(0, 0), (Rgba8{126, 126, 7, 255}));
 }
 
@@ -208,7 +208,7 @@ TEST(BakeTexture, KeepsTheGroundOut) {
       map.at(x, y) = own_place(x, y, 32, 32);
       map.at(x, y).x = x < 8 ? 2 * map.at(x, y).x : 0.1f;  // stale beyond
     }
-  const ImageRgba8 out = bake_texture(map, texture, finest, level);
+  const ImageRgba8 out = resolve_index_map(map, texture, finest, level);
   for (int y = 0; y < 32; ++y) {
     for (int x = 0; x < 16; ++x) ASSERT_EQ(out.at(x, y), skin) << x << ' ' << y;
     for (int x = 20; x < 32; ++x) ASSERT_EQ(out.at(x, y), ground) << x << ' ' << y;

@@ -8,7 +8,7 @@
 #include "draw/shading.h"
 #include "draw/small_scene.h"
 #include "image/pixels.h"
-#include "play/floor.h"
+#include "play/floor_quad.h"
 
 namespace viewcell {
 namespace {

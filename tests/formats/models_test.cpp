@@ -6,7 +6,7 @@
 #include <tuple>
 
 #include "formats/mesh_file.h"
-#include "mesh/repair.h"
+#include "mesh/topology.h"
 
 namespace viewcell {
 namespace {

@@ -12,8 +12,8 @@
 #include "common/expect_input_error.h"
 #include "formats/mesh_file.h"
 #include "mesh/cube.h"
-#include "mesh/repair.h"
 #include "mesh/surfaces.h"
+#include "mesh/topology.h"
 #include "uv/texcoord_drift.h"
 #include "uv/uv_stretch.h"
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "mesh/repair.h"
+#include "mesh/topology.h"
 #include "park/random_figure.h"
 
 namespace viewcell {

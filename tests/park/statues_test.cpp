@@ -7,7 +7,7 @@
 #include <map>
 
 #include "formats/mesh_file.h"
-#include "mesh/repair.h"
+#include "mesh/topology.h"
 #include "park/relief.h"
 #include "park/scatter.h"
 #include "pm/simplify.h"

@@ -10,8 +10,8 @@
 #include "formats/mesh_file.h"
 #include "mesh/cube.h"
 #include "mesh/knot.h"
-#include "mesh/repair.h"
 #include "mesh/surfaces.h"
+#include "mesh/topology.h"
 
 namespace viewcell {
 namespace {

@@ -1,7 +1,7 @@
 // svmesh: meshes textured from one view, for objects whose self-occluding error is small.
-#include "common/mesh_tool.h"
+#include "common/cell_mesh_tool.h"
 
 int main(int argc, char** argv) {
-  return viewcell::mesh_tool_main(argc, argv, viewcell::Representation::single_view, "svmesh",
-                                  "Derive the single-view textured LOD meshes of view cells.");
+  return viewcell::cell_mesh_tool_main(argc, argv, viewcell::Representation::single_view, "svmesh",
+                                       "Derive the single-view textured LOD meshes of view cells.");
 }

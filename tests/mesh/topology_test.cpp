@@ -1,4 +1,4 @@
-#include "mesh/repair.h"
+#include "mesh/topology.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "play/floor.h"
+#include "play/floor_quad.h"
 
 #include <cstdint>
 #include <vector>

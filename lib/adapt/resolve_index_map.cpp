@@ -1,4 +1,4 @@
-#include "adapt/bake_texture.h"
+#include "adapt/resolve_index_map.h"
 
 #include <algorithm>
 
@@ -93,8 +93,8 @@ Image<std::uint8_t> make_chart_mask(const LevelCharts& charts, int width_px, int
   return mask;
 }
 
-ImageRgba8 bake_texture(const IndexMap& map, const ImageRgba8& texture, const LevelCharts& finest,
-                        const LevelCharts& level, int n_threads) {
+ImageRgba8 resolve_index_map(const IndexMap& map, const ImageRgba8& texture,
+                             const LevelCharts& finest, const LevelCharts& level, int n_threads) {
   ImageRgba8 out = look_up(map, texture, continue_charts(texture, finest, n_threads), n_threads);
   fill_around(out, texture, finest, level, n_threads);
   return out;

@@ -8,7 +8,7 @@
 namespace viewcell {
 
 /// The whole of main.
-int mesh_tool_main(int argc, char** argv, Representation kind, const std::string& name,
-                   const std::string& description);
+int cell_mesh_tool_main(int argc, char** argv, Representation kind, const std::string& name,
+                        const std::string& description);
 
 }  // namespace viewcell

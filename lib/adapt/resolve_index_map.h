@@ -17,7 +17,8 @@ Image<std::uint8_t> make_chart_mask(const LevelCharts& charts, int width_px, int
 /// finest, level: the faces before the first collapse and now. What charts have left behind takes
 /// the colour of the nearest texel of a chart; what none ever covered stays as it was.
 /// The same bytes for any n_threads (0: all).
-ImageRgba8 bake_texture(const IndexMap& map, const ImageRgba8& texture, const LevelCharts& finest,
-                        const LevelCharts& level, int n_threads = 0);
+ImageRgba8 resolve_index_map(const IndexMap& map, const ImageRgba8& texture,
+                             const LevelCharts& finest, const LevelCharts& level,
+                             int n_threads = 0);
 
 }  // namespace viewcell

@@ -1,4 +1,4 @@
-#include "adapt/bake_texture.h"
+#include "adapt/resolve_index_map.h"
 
 #include <gtest/gtest.h>
 
@@ -58,7 +58,7 @@ TEST(BakeTexture, TheIdentityIsTheTexture) {
   IndexMap map(kSize, kSize);
   for (int y = 0; y < kSize; ++y)
     for (int x = 0; x < kSize; ++x) map.at(x, y) = own_place(x, y, kSize, kSize);
-  EXPECT_EQ(bake_texture(map, texture, charts, charts).pixels, texture.pixels);
+  EXPECT_EQ(resolve_index_map(map, texture, charts, charts).pixels, texture.pixels);
 }
 
 // Fetches up to 3 texels beyond the chart find its rim's colour, not the ground's.
@@ -66,7 +66,7 @@ TEST(BakeTexture, ContinuesChartsForFetches) {
   for (const bool is_turned : {false, true}) {
     const LevelCharts charts = make_strip(16, is_turned);
     const IndexMap map = make_map(is_turned, [](int at) { return at < 16 ? 14.9 + at / 4.0 : at; });
-    const ImageRgba8 out = bake_texture(map, make_texture(is_turned), charts, charts);
+    const ImageRgba8 out = resolve_index_map(map, make_texture(is_turned), charts, charts);
     for (int at = 0; at < 16; ++at) EXPECT_EQ(at_line(out, is_turned, at), kRim) << at;
     EXPECT_EQ(at_line(out, is_turned, 16), kGround);
   }
@@ -79,8 +79,8 @@ TEST(BakeTexture, WhatChartsLeaveTakesTheGutter) {
     const IndexMap map = make_map(is_turned, [](int at) {
       return at < 8 ? at : at < 10 ? 9 : at < 16 ? 3 : at;
     });
-    const ImageRgba8 out = bake_texture(map, make_texture(is_turned), make_strip(16, is_turned),
-                                        make_strip(8, is_turned));
+    const ImageRgba8 out = resolve_index_map(map, make_texture(is_turned),
+                                             make_strip(16, is_turned), make_strip(8, is_turned));
     for (int at = 0; at < kSize; ++at)
       EXPECT_EQ(at_line(out, is_turned, at), at < 8 ? kSkin : at < 16 ? kHair : kGround) << at;
   }
@@ -92,8 +92,8 @@ TEST(BakeTexture, GrownChartsCoverTheGround) {
     const IndexMap map = make_map(is_turned, [](int at) {
       return at < 16 ? at : at < 22 ? 9 : at;
     });
-    const ImageRgba8 out = bake_texture(map, make_texture(is_turned), make_strip(16, is_turned),
-                                        make_strip(20, is_turned));
+    const ImageRgba8 out = resolve_index_map(map, make_texture(is_turned),
+                                             make_strip(16, is_turned), make_strip(20, is_turned));
     for (int at = 12; at < kSize; ++at)
       EXPECT_EQ(at_line(out, is_turned, at), at < 16 ? kRim : at < 22 ? kHair : kGround) << at;
   }
@@ -111,7 +111,7 @@ TEST(BakeTexture, OfAnotherSize) {
   IndexMap map(3, 1);
   const auto uv = [](double x, double y) { return glm::vec2((x + 0.5) / 8, 1 - (y + 0.5) / 2); };
   map.pixels = {uv(2.49, 0.74), uv(6.98, 0.25), uv(40, -3)};
-  const ImageRgba8 out = bake_texture(map, texture, hand.charts, hand.charts);
+  const ImageRgba8 out = resolve_index_map(map, texture, hand.charts, hand.charts);
   EXPECT_EQ(out.pixels[0], (Rgba8{50, 7, 0, 255}));   // 49.8, 6.66
   EXPECT_EQ(out.pixels[1], (Rgba8{140, 2, 0, 255}));  // 139.6, 2.25
   EXPECT_EQ(out.pixels[2], (Rgba8{140, 0, 0, 255}));

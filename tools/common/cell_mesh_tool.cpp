@@ -1,4 +1,4 @@
-#include "common/mesh_tool.h"
+#include "common/cell_mesh_tool.h"
 
 #include <mutex>
 
@@ -111,8 +111,8 @@ int run(const Tool& tool, Representation kind, Options& options) {
 
 }  // namespace
 
-int mesh_tool_main(int argc, char** argv, Representation kind, const std::string& name,
-                   const std::string& description) {
+int cell_mesh_tool_main(int argc, char** argv, Representation kind, const std::string& name,
+                        const std::string& description) {
   Tool tool(name, description,
             name + " park/scene.json cells.json captures/ --ts 5 --tl 4.5 --cells 120-130 -o " +
                 name + "/");
