@@ -29,7 +29,7 @@ struct CellSet {
 std::vector<ConvexPolygon> make_footprints(const Scene& scene);
 
 /// Lays the grid over the scene's area. An object is inside a cell when its footprint's hull meets
-/// the closed hexagon widened by the corner of the near plane (DESIGN, Conventions).
+/// the closed hexagon widened by the corner of the near plane (docs/formats.md, cells.json).
 CellSet make_cells(const Scene& scene, double size, const EyeHeight& eye_height);
 
 bool is_inside(const CellSet& cells, CellId cell, ObjectId object);

@@ -33,13 +33,12 @@ double distance_squared(const glm::dvec3& p, const glm::dvec3& q) {
 
 }  // namespace
 
-//          \  w<0 |
-//      c    \     |        u, v, w: areas opposite a, b, c, times 2 |n|. Inside, all are at least
-//      0:
-//      |`.   \    |        the foot of the perpendicular is nearest. Outside, the nearest point is
-//      on |  `.          u<0  an edge that the foot lies beyond.
-//  v<0 a----b
-//       w<0
+//            c
+//           / \          u, v, w: areas opposite a, b, c, times 2 |n|. Inside, all are at least 0:
+//    v < 0 /   \ u < 0   the foot of the perpendicular is nearest. Outside, the nearest point is on
+//         /     \        an edge that the foot lies beyond.
+//        a-------b
+//          w < 0
 glm::dvec3 closest_point_on_triangle(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3& b,
                                      const glm::dvec3& c) {
   const glm::dvec3 ab = b - a, ac = c - a, ap = p - a;

@@ -80,7 +80,7 @@ Refusal CollapseMesh::check(std::uint32_t u, std::uint32_t v, const glm::vec3& p
   return refusal != Refusal::none ? refusal : check_move(fan_v_, v, u, place, min_cosine);
 }
 
-// The link condition [Dey, Edelsbrunner, Guha, Nekhayev 1999]: a vertex joined to both u and v must
+// The link condition [Dey et al. 1999]: a vertex joined to both u and v must
 // be the third corner of a triangle at uv, and no triangle of u may come to lie on one of v. (The
 // three neighbours of a vertex with three triangles are all joined; it may go unless they have a
 // triangle of their own, as in a tetrahedron.)

@@ -13,7 +13,7 @@ namespace viewcell {
 /// Every face has a box of vectors that holds the deviations, point of the input minus matched
 /// point, of all its points; maps of collapses hand them on. Every point of the mesh and of the
 /// input is in some such pair, so the farthest reach of the boxes bounds the distance both ways.
-/// Follows: [Cohen, Olano, Manocha 1998 4.3], [Chen06 4.2.1].
+/// Follows: [Cohen 1998 4.3], [Chen06 4.2.1].
 class DeviationBoxes {
  public:
   static constexpr bool kMoments = false;  ///< whether maps must have them

@@ -30,7 +30,7 @@ struct MappingOptions {
 /// With Measure::mean it is the root of what the collapse adds to the mean squared distance over
 /// the surface (`total`: from the input): faces hand on area, mean and mean square of their points'
 /// deviations, taken to be independent of the next shift within a face.
-/// Follows: [Chen06 4.2.1], [Cohen, Olano, Manocha 1998].
+/// Follows: [Chen06 4.2.1], [Cohen 1998].
 class MappingMetric {
  public:
   static constexpr int kReach = 2;

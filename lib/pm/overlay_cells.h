@@ -11,7 +11,7 @@ namespace viewcell {
 
 /// How points of the two surfaces are matched.
 enum class Matching {
-  texture,  ///< by equal texture coordinates [Cohen, Olano, Manocha 1998]
+  texture,  ///< by equal texture coordinates [Cohen 1998]
   nearest   ///< edges that cross at the nearest points of each other [Chen06 3.2.2, 4.2]
 };
 
