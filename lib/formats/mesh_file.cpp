@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "formats/readers.h"
+#include "mesh/surface_samples.h"
 
 namespace viewcell {
 namespace {
@@ -75,6 +76,13 @@ TriMesh read_mesh(const std::filesystem::path& file, std::string* hash) {
   if (hash != nullptr) *hash = hash_hex(bytes);
   check_mesh(mesh, file.string());
   normalize_normals(mesh);
+  return mesh;
+}
+
+TriMesh read_surface(const std::filesystem::path& file, std::string* hash) {
+  TriMesh mesh = read_mesh(file, hash);
+  if (!(surface_area(mesh) > 0))
+    throw InputError(file.string(), "", "has no area: every face is a line or a point");
   return mesh;
 }
 

@@ -19,6 +19,9 @@ namespace viewcell {
 /// hash: hash_hex of the file's bytes, if wanted: a pipe is read once.
 TriMesh read_mesh(const std::filesystem::path& file, std::string* hash = nullptr);
 
+/// read_mesh, and an InputError when all faces together have no area.
+TriMesh read_surface(const std::filesystem::path& file, std::string* hash = nullptr);
+
 /// Binary little-endian PLY: positions, and normals, colours and texture coordinates (as a list
 /// "texcoord" of each face) where present. comments: lines of
 /// provenance. Whole or not at all.

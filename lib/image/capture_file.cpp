@@ -37,10 +37,6 @@ std::size_t n_pixels(const CapturePartHeader& h) {
   return static_cast<std::size_t>(h.width_px) * static_cast<std::size_t>(h.height_px);
 }
 
-std::string first_line(const std::string& text) {
-  return text.empty() ? "no reason given" : text.substr(0, text.find('\n'));
-}
-
 bool is_attribute_name(const std::string& name) {
   if (name.empty() || !std::islower(static_cast<unsigned char>(name[0]))) return false;
   for (const char c : name)

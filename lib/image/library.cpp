@@ -14,4 +14,8 @@ void configure_openimageio() {
   static_cast<void>(once);
 }
 
+std::string first_line(const std::string& text) {
+  return text.empty() ? "no reason given" : text.substr(0, text.find('\n'));
+}
+
 }  // namespace viewcell

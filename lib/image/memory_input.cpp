@@ -20,10 +20,6 @@ void check_spec(const OIIO::ImageSpec& spec, const std::string& file) {
 
 }  // namespace
 
-std::string first_line(const std::string& text) {
-  return text.empty() ? "cannot decode" : text.substr(0, text.find('\n'));
-}
-
 MemoryInput open_memory(std::string_view bytes, const std::string& file) {
   configure_openimageio();
   MemoryInput picture;

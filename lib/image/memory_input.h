@@ -12,6 +12,7 @@
 
 #include "base/error.h"
 #include "image/header.h"
+#include "image/library.h"
 
 namespace viewcell {
 
@@ -31,9 +32,6 @@ struct MemoryInput {
 /// image/header.h, 1 to 64 channels. Alpha will come out straight. bytes must outlive the result.
 /// Throws InputError naming `file`.
 MemoryInput open_memory(std::string_view bytes, const std::string& file);
-
-/// The first line of what OpenImageIO says, for errors: it may say more, and ends in a newline.
-std::string first_line(const std::string& text);
 
 /// Channels 0 .. n_channels - 1 of the picture as Sample, pixel by pixel. Throws InputError(file).
 template <typename Sample>

@@ -238,11 +238,4 @@ SurfaceDistance measure_surface_distance(const TriMesh& a, const TriMesh& b,
   return result;
 }
 
-TriMesh read_surface(const std::filesystem::path& file, std::string* hash) {
-  TriMesh mesh = read_mesh(file, hash);
-  if (!(surface_area(mesh) > 0))
-    throw InputError(file.string(), "", "has no area: every face is a line or a point");
-  return mesh;
-}
-
 }  // namespace viewcell

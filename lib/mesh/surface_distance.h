@@ -5,7 +5,6 @@
 
 #include <array>
 #include <cstdint>
-#include <filesystem>
 #include <vector>
 
 #include "base/parallel.h"
@@ -72,8 +71,5 @@ struct SurfaceDistance {
 SurfaceDistance measure_surface_distance(const TriMesh& a, const TriMesh& b,
                                          const DistanceOptions& options = {},
                                          const Progress& progress = {});
-
-/// read_mesh, and an InputError when all faces together have no area.
-TriMesh read_surface(const std::filesystem::path& file, std::string* hash = nullptr);
 
 }  // namespace viewcell

@@ -28,7 +28,7 @@ void add_chest(Figure& figure) {
   }
 }
 
-void add_head(Figure& figure) {
+void add_bust_head(Figure& figure) {
   figure.unite(0.9f, {make_round_cone({0, 0.6f, 9.6f}, 1.75f, {0, 0.2f, 13.6f}, 1.45f)});
   figure.unite(0.5f, {make_ellipsoid({0, -0.2f, 16.3f}, {2.3f, 2.8f, 3.1f})});
   figure.unite(0.8f, {make_ellipsoid({0, -1.3f, 14.6f}, {1.7f, 1.7f, 1.7f})});
@@ -70,7 +70,7 @@ Figure make_bust_figure() {
   Figure figure;
   add_socle(figure);
   add_chest(figure);
-  add_head(figure);
+  add_bust_head(figure);
   add_hair(figure);
   return figure;
 }

@@ -3,7 +3,7 @@
 namespace viewcell {
 namespace {
 
-void add_trunk(Figure& figure) {
+void add_camel_trunk(Figure& figure) {
   figure.unite(0, {make_box({-0.5f, 0, 0}, {20.5f, 7.9f, 1.9f}, 0.6f)});
   figure.unite(0, {make_ellipsoid({-3, 0, 22.5f}, {14, 6.4f, 7})});
   figure.unite(2.5f, {make_ellipsoid({8, 0, 22}, {6.4f, 5.6f, 7})});
@@ -33,34 +33,34 @@ void add_neck_and_head(Figure& figure) {
 }
 
 // A leg through the four knots given, and its two-toed foot.
-void add_leg(Figure& figure, const Knot (&knots)[5]) {
+void add_camel_leg(Figure& figure, const Knot (&knots)[5]) {
   figure.unite(1.6f, make_chain(knots, 4));
   const glm::vec3 foot = knots[4].point;
   figure.unite(0.5f, {make_ellipsoid(foot + glm::vec3(0.9f, 0.6f, -0.9f), {2, 1.1f, 1.2f}),
                       make_ellipsoid(foot + glm::vec3(0.9f, -0.6f, -0.9f), {2, 1.1f, 1.2f})});
 }
 
-void add_legs(Figure& figure) {
-  add_leg(figure, {{{8.5f, 3.4f, 19}, 3.6f},
-                   {{9.5f, 4, 14}, 2.3f},
-                   {{10.5f, 4.2f, 10.5f}, 1.9f},
-                   {{10.3f, 4.2f, 6}, 1.2f},
-                   {{10.6f, 4.2f, 3.4f}, 1.3f}});
-  add_leg(figure, {{{8.5f, -3.4f, 19}, 3.6f},
-                   {{7.4f, -4, 14}, 2.3f},
-                   {{7, -4.2f, 10.5f}, 1.9f},
-                   {{4.6f, -4.2f, 6}, 1.2f},
-                   {{4.2f, -4.2f, 3.4f}, 1.3f}});
-  add_leg(figure, {{{-14, 3.2f, 19}, 4.4f},
-                   {{-14.5f, 3.8f, 14}, 2.8f},
-                   {{-18, 4, 10.6f}, 1.8f},
-                   {{-17.8f, 4, 6}, 1.2f},
-                   {{-18, 4, 3.4f}, 1.3f}});
-  add_leg(figure, {{{-14, -3.2f, 19}, 4.4f},
-                   {{-11.5f, -3.8f, 14}, 2.8f},
-                   {{-12.6f, -4, 10.6f}, 1.8f},
-                   {{-10.6f, -4, 6}, 1.2f},
-                   {{-10.2f, -4, 3.4f}, 1.3f}});
+void add_camel_legs(Figure& figure) {
+  add_camel_leg(figure, {{{8.5f, 3.4f, 19}, 3.6f},
+                         {{9.5f, 4, 14}, 2.3f},
+                         {{10.5f, 4.2f, 10.5f}, 1.9f},
+                         {{10.3f, 4.2f, 6}, 1.2f},
+                         {{10.6f, 4.2f, 3.4f}, 1.3f}});
+  add_camel_leg(figure, {{{8.5f, -3.4f, 19}, 3.6f},
+                         {{7.4f, -4, 14}, 2.3f},
+                         {{7, -4.2f, 10.5f}, 1.9f},
+                         {{4.6f, -4.2f, 6}, 1.2f},
+                         {{4.2f, -4.2f, 3.4f}, 1.3f}});
+  add_camel_leg(figure, {{{-14, 3.2f, 19}, 4.4f},
+                         {{-14.5f, 3.8f, 14}, 2.8f},
+                         {{-18, 4, 10.6f}, 1.8f},
+                         {{-17.8f, 4, 6}, 1.2f},
+                         {{-18, 4, 3.4f}, 1.3f}});
+  add_camel_leg(figure, {{{-14, -3.2f, 19}, 4.4f},
+                         {{-11.5f, -3.8f, 14}, 2.8f},
+                         {{-12.6f, -4, 10.6f}, 1.8f},
+                         {{-10.6f, -4, 6}, 1.2f},
+                         {{-10.2f, -4, 3.4f}, 1.3f}});
 }
 
 void add_load(Figure& figure) {
@@ -79,9 +79,9 @@ void add_load(Figure& figure) {
 
 Figure make_camel_figure() {
   Figure figure;
-  add_trunk(figure);
+  add_camel_trunk(figure);
   add_neck_and_head(figure);
-  add_legs(figure);
+  add_camel_legs(figure);
   add_load(figure);
   return figure;
 }

@@ -4,7 +4,7 @@ namespace viewcell {
 namespace {
 
 // An animal's leg through its knots, ending in a cloven hoof.
-void add_leg(Figure& figure, const Knot (&knots)[4]) {
+void add_cattle_leg(Figure& figure, const Knot (&knots)[4]) {
   figure.unite(1.2f, make_chain(knots, 4));
   const glm::vec3 foot = knots[3].point;
   for (const float side : {-0.6f, 0.6f})
@@ -59,22 +59,22 @@ Figure make_bull_head() {
 }
 
 void add_bull_legs(Figure& figure) {
-  add_leg(figure, {{{8, 3.4f, 11.5f}, 3.2f},
-                   {{9.6f, 3.8f, 7}, 1.8f},
-                   {{9, 3.8f, 3.4f}, 1.2f},
-                   {{9.4f, 3.8f, 1.6f}, 1.3f}});
-  add_leg(figure, {{{8, -3.4f, 11.5f}, 3.2f},
-                   {{12.4f, -3.8f, 9}, 1.9f},
-                   {{11.2f, -3.8f, 4.8f}, 1.2f},
-                   {{11.4f, -3.8f, 2.4f}, 1.3f}});
-  add_leg(figure, {{{-11.5f, 3, 12.5f}, 4},
-                   {{-10.5f, 3.6f, 8.6f}, 2.5f},
-                   {{-13.8f, 3.8f, 6}, 1.5f},
-                   {{-12.8f, 3.8f, 1.6f}, 1.3f}});
-  add_leg(figure, {{{-11.5f, -3, 12.5f}, 4},
-                   {{-12, -3.6f, 8.6f}, 2.5f},
-                   {{-16.4f, -3.8f, 6.4f}, 1.5f},
-                   {{-16, -3.8f, 1.6f}, 1.3f}});
+  add_cattle_leg(figure, {{{8, 3.4f, 11.5f}, 3.2f},
+                          {{9.6f, 3.8f, 7}, 1.8f},
+                          {{9, 3.8f, 3.4f}, 1.2f},
+                          {{9.4f, 3.8f, 1.6f}, 1.3f}});
+  add_cattle_leg(figure, {{{8, -3.4f, 11.5f}, 3.2f},
+                          {{12.4f, -3.8f, 9}, 1.9f},
+                          {{11.2f, -3.8f, 4.8f}, 1.2f},
+                          {{11.4f, -3.8f, 2.4f}, 1.3f}});
+  add_cattle_leg(figure, {{{-11.5f, 3, 12.5f}, 4},
+                          {{-10.5f, 3.6f, 8.6f}, 2.5f},
+                          {{-13.8f, 3.8f, 6}, 1.5f},
+                          {{-12.8f, 3.8f, 1.6f}, 1.3f}});
+  add_cattle_leg(figure, {{{-11.5f, -3, 12.5f}, 4},
+                          {{-12, -3.6f, 8.6f}, 2.5f},
+                          {{-16.4f, -3.8f, 6.4f}, 1.5f},
+                          {{-16, -3.8f, 1.6f}, 1.3f}});
   const Knot tail[] = {{{-15.6f, 0, 20}, 1.0f},    {{-18.4f, 0.6f, 21.4f}, 0.8f},
                        {{-20, 1.6f, 17}, 0.7f},    {{-19, 3, 12}, 0.7f},
                        {{-17, 5.4f, 11.4f}, 0.9f}, {{-15.8f, 7, 9.6f}, 1.3f},

@@ -130,7 +130,7 @@ void add_claw(Figure& figure, const glm::vec3& ankle, const glm::vec3& toward) {
 }
 
 // A leg from hip to ankle with its claw, and flames at the elbow.
-void add_leg(Figure& figure, const Knot (&knots)[4], const glm::vec3& toward, float flame) {
+void add_dragon_leg(Figure& figure, const Knot (&knots)[4], const glm::vec3& toward, float flame) {
   figure.unite(1.4f, make_chain(knots, 5));
   add_claw(figure, knots[3].point, toward);
   for (int i = 0; i < 4; ++i) {
@@ -144,31 +144,31 @@ void add_leg(Figure& figure, const Knot (&knots)[4], const glm::vec3& toward, fl
   }
 }
 
-void add_legs(Figure& figure) {
-  add_leg(figure,
-          {{{-11, -3.4f, 11}, 3.2f},
-           {{-7.4f, -7, 9.5f}, 2.4f},
-           {{-10.6f, -8.4f, 5.2f}, 1.6f},
-           {{-8.6f, -8.6f, 2.4f}, 1.4f}},
-          {1, -0.25f, 0}, -1);
-  add_leg(figure,
-          {{{-11, 3.2f, 13}, 3.2f},
-           {{-8.4f, 7.2f, 9.5f}, 2.4f},
-           {{-12.2f, 8.2f, 5.2f}, 1.6f},
-           {{-10.6f, 8.4f, 2.4f}, 1.4f}},
-          {1, 0.3f, 0}, 1);
-  add_leg(figure,
-          {{{9, -3.6f, 14}, 3.2f},
-           {{7.4f, -8, 10}, 2.2f},
-           {{11, -9.2f, 5.6f}, 1.6f},
-           {{12.6f, -9.2f, 2.4f}, 1.4f}},
-          {1, -0.2f, 0}, -1);
-  add_leg(figure,
-          {{{10, 2.6f, 13.5f}, 3.2f},
-           {{9.6f, 7, 10.4f}, 2.2f},
-           {{14.4f, 8.2f, 6.6f}, 1.6f},
-           {{17.4f, 8.6f, 2.4f}, 1.4f}},
-          {1, 0.25f, 0}, 1);
+void add_dragon_legs(Figure& figure) {
+  add_dragon_leg(figure,
+                 {{{-11, -3.4f, 11}, 3.2f},
+                  {{-7.4f, -7, 9.5f}, 2.4f},
+                  {{-10.6f, -8.4f, 5.2f}, 1.6f},
+                  {{-8.6f, -8.6f, 2.4f}, 1.4f}},
+                 {1, -0.25f, 0}, -1);
+  add_dragon_leg(figure,
+                 {{{-11, 3.2f, 13}, 3.2f},
+                  {{-8.4f, 7.2f, 9.5f}, 2.4f},
+                  {{-12.2f, 8.2f, 5.2f}, 1.6f},
+                  {{-10.6f, 8.4f, 2.4f}, 1.4f}},
+                 {1, 0.3f, 0}, 1);
+  add_dragon_leg(figure,
+                 {{{9, -3.6f, 14}, 3.2f},
+                  {{7.4f, -8, 10}, 2.2f},
+                  {{11, -9.2f, 5.6f}, 1.6f},
+                  {{12.6f, -9.2f, 2.4f}, 1.4f}},
+                 {1, -0.2f, 0}, -1);
+  add_dragon_leg(figure,
+                 {{{10, 2.6f, 13.5f}, 3.2f},
+                  {{9.6f, 7, 10.4f}, 2.2f},
+                  {{14.4f, 8.2f, 6.6f}, 1.6f},
+                  {{17.4f, 8.6f, 2.4f}, 1.4f}},
+                 {1, 0.25f, 0}, 1);
 }
 
 }  // namespace
@@ -178,7 +178,7 @@ Figure make_dragon_figure() {
   figure.unite(0, make_chain(spine(), 6));
   add_belly(figure);
   add_scales(figure);
-  add_legs(figure);
+  add_dragon_legs(figure);
   add_crest(figure);
   add_tail_tuft(figure);
   figure.add(make_dragon_head(), 1, turn_z(-6) * turn_y(10), {18.2f, -0.4f, 35});

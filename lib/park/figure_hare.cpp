@@ -23,7 +23,7 @@ void add_mound(Figure& figure) {
   }
 }
 
-void add_body(Figure& figure) {
+void add_hare_body(Figure& figure) {
   figure.unite(1.2f, {make_ellipsoid({-4, 0, 15}, {14, 10.5f, 12.2f}, turn_y(-14))});
   figure.unite(4, {make_ellipsoid({6, 0, 16.5f}, {8.2f, 8.2f, 10.5f}, turn_y(-20))});  // the chest
   figure.unite_pair(1, 1.6f, {make_ellipsoid({-7, 7.6f, 11}, {9.6f, 5.2f, 9.4f}, turn_y(12))});
@@ -59,7 +59,7 @@ void add_body(Figure& figure) {
   }
 }
 
-void add_head(Figure& figure) {
+void add_hare_head(Figure& figure) {
   figure.unite(2.5f, {make_ellipsoid({10.5f, 0, 27.4f}, {6.6f, 5.4f, 5.9f}, turn_y(14))});
   figure.unite(1.5f, {make_ellipsoid({15.4f, 0, 25.6f}, {3.9f, 3.2f, 3.2f})});  // the muzzle
   figure.unite_pair(1, 0.8f, {make_ellipsoid({17.3f, 1.3f, 24.9f}, {1.7f, 1.45f, 1.6f})});
@@ -103,8 +103,8 @@ void add_ear(Figure& figure, const Knot (&knots)[5], const glm::vec3& open) {
 Figure make_hare_figure() {
   Figure figure;
   add_mound(figure);
-  add_body(figure);
-  add_head(figure);
+  add_hare_body(figure);
+  add_hare_head(figure);
   add_ear(figure,
           {{{8.4f, 2.6f, 31.4f}, 1.5f},
            {{7, 4.2f, 34.5f}, 2.3f},

@@ -5,7 +5,7 @@
 namespace viewcell {
 namespace {
 
-void add_plinth(Figure& figure) {
+void add_horse_plinth(Figure& figure) {
   figure.unite(0, {make_box({0, 0, 0}, {19, 27, 2.6f}, 0.6f)});
   figure.unite(0, {make_box({0, 0, 3.4f}, {16.8f, 24.8f, 2}, 0.6f)});
   figure.unite(1.2f, {make_box({0, 0, 11}, {13.4f, 21.2f, 7}, 0.6f)});
@@ -22,7 +22,7 @@ void add_plinth(Figure& figure) {
   }
 }
 
-void add_trunk(Figure& figure) {
+void add_horse_trunk(Figure& figure) {
   figure.unite(0, {make_ellipsoid({0, 9, 45}, {6.4f, 7.2f, 7})});  // the croup
   figure.unite(4, {make_round_cone({0, 6, 47}, 6.1f, {0, -5, 57}, 6.6f)});
   figure.unite(3, {make_ellipsoid({0, -8, 60}, {5.9f, 6.2f, 7})});
@@ -33,7 +33,7 @@ void add_trunk(Figure& figure) {
   figure.unite(2.5f, make_chain(neck, 5));
 }
 
-void add_head(Figure& figure) {
+void add_horse_head(Figure& figure) {
   figure.unite(0.8f,
                {make_round_cone({0, -18.4f, 76}, 2.8f, {0, -22.6f, 70.6f}, 2.1f),
                 make_round_cone({0, -22.6f, 70.6f}, 2.1f, {0, -25, 66.8f}, 1.8f)},
@@ -75,7 +75,7 @@ void add_hoof(Figure& figure, const glm::vec3& fetlock, const glm::vec3& toe) {
   figure.unite(0.4f, {make_drum(fetlock + 0.2f * along, 1.4f, toe, 2.3f, 0.4f)});
 }
 
-void add_legs(Figure& figure) {
+void add_horse_legs(Figure& figure) {
   for (const float side : {-1.0f, 1.0f}) {
     const float back = side < 0 ? 0.0f : 2.5f;
     figure.unite(2.5f, {make_ellipsoid({side * 3.6f, 8, 41.5f}, {3.5f, 6, 7}, turn_x(15))});
@@ -107,11 +107,11 @@ void add_legs(Figure& figure) {
 
 Figure make_horse_figure() {
   Figure figure;
-  add_plinth(figure);
+  add_horse_plinth(figure);
   Figure horse;
-  add_trunk(horse);
-  add_head(horse);
-  add_legs(horse);
+  add_horse_trunk(horse);
+  add_horse_head(horse);
+  add_horse_legs(horse);
   add_mane_and_tail(horse);
   figure.add(horse, 1.1f, glm::mat3(1), {0, 1.5f, -7.6f});
   return figure;

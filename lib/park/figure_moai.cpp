@@ -3,7 +3,7 @@
 namespace viewcell {
 namespace {
 
-void add_body(Figure& figure) {
+void add_moai_body(Figure& figure) {
   figure.unite(0, {make_drum({0, 0.4f, -1}, 5.2f, {0, 0.4f, 9.2f}, 5.5f, 1.8f, {1, 0.84f})});
   figure.unite(2, {make_round_cone({0, 0.2f, 8}, 4, {0, 0.3f, 13}, 3.3f)});
   // arms laid along the body, long fingers meeting under the navel
@@ -17,7 +17,7 @@ void add_body(Figure& figure) {
   }
 }
 
-void add_head(Figure& figure) {
+void add_moai_head(Figure& figure) {
   figure.unite(1.5f, {make_box({0, 0.6f, 17.6f}, {3.5f, 3.7f, 8.4f}, 2.4f, turn_x(-5))});
   figure.unite(1.2f, {make_ellipsoid({0, 1.6f, 21}, {4.1f, 3.8f, 5.5f})});      // the skull
   figure.unite(1.2f, {make_box({0, -1.9f, 11.6f}, {3.1f, 2.5f, 2.2f}, 1.3f)});  // the jaw
@@ -48,8 +48,8 @@ void add_mouth_and_ears(Figure& figure) {
 
 Figure make_moai_figure() {
   Figure figure;
-  add_body(figure);
-  add_head(figure);
+  add_moai_body(figure);
+  add_moai_head(figure);
   add_mouth_and_ears(figure);
   figure.unite(0.2f, {make_drum({0, 1.4f, 25.2f}, 4.4f, {0, 1.4f, 28.8f}, 4.7f, 1.0f)});
   figure.unite(0.5f, {make_drum({0, 1.4f, 28}, 2.2f, {0, 1.4f, 30.8f}, 1.8f, 0.7f)});

@@ -17,13 +17,13 @@ void add_cloak(Figure& figure) {
   figure.cut(0.5f, {make_box({0, -5.2f, 9}, {6, 5, 9.6f}, 0.4f, turn_x(6))});
 }
 
-void add_plinth(Figure& figure) {
+void add_robed_plinth(Figure& figure) {
   figure.unite(0, {make_box({0, 0, 0}, {5, 6, 0.9f}, 0.15f)});
   figure.unite(0.1f, {make_box({0, 0, 1.2f}, {4.4f, 5.4f, 0.7f}, 0.15f)});
   figure.unite(0.4f, {make_box({0, 0, 1.8f}, {4.1f, 5.1f, 0.75f}, 0.1f)});
 }
 
-void add_body(Figure& figure) {
+void add_robed_body(Figure& figure) {
   Solid robe = make_drum({0, -0.1f, 13}, 1.7f, {0, -0.1f, 2.3f}, 3.4f, 0.3f, {1, 0.92f});
   robe.n_flutes = 14, robe.flute_depth = 0.75f, robe.twist_rad = -0.7f;
   figure.unite(0.3f, {robe});
@@ -41,7 +41,7 @@ void add_body(Figure& figure) {
   figure.unite(0.1f, make_chain(ends, 4));
 }
 
-void add_head(Figure& figure) {
+void add_robed_head(Figure& figure) {
   figure.unite(0.4f, {make_ellipsoid({0, 0.5f, 20.5f}, {1.75f, 1.75f, 2.2f})});  // the hood
   figure.unite(0.6f, {make_round_cone({0, 1.2f, 21.8f}, 0.9f, {0, 2.6f, 21.2f}, 0.4f)});
   figure.unite(0.6f, {make_round_cone({0, 0.6f, 18.6f}, 1.6f, {0, 0.4f, 17}, 2)});
@@ -108,9 +108,9 @@ void add_lantern(Figure& figure, const glm::vec3& hand) {
 Figure make_robed_figure() {
   Figure figure;
   add_cloak(figure);
-  add_plinth(figure);
-  add_body(figure);
-  add_head(figure);
+  add_robed_plinth(figure);
+  add_robed_body(figure);
+  add_robed_head(figure);
   const glm::vec3 staff_hand(-4.6f, -2.9f, 14.6f), lantern_hand(2.9f, -4.9f, 15.2f);
   add_arm(figure, {-2.3f, 0.2f, 17}, {-4.1f, -0.1f, 14.3f}, staff_hand);
   add_arm(figure, {2.3f, 0.2f, 17}, {3.6f, -1.3f, 14.2f}, lantern_hand);

@@ -14,7 +14,7 @@ constexpr double kCreaseCosine = 0.85;  // a vertex whose triangles turn more th
 constexpr double kMaxHeight = 2.2;      // of the random waves, in standard deviations
 
 // What a vertex's triangles say about it.
-struct Fan {
+struct VertexFan {
   glm::dvec3 neighbour_sum{0};
   glm::dvec3 normal_sum{0};  // of unit normals
   double edge_sum = 0;
@@ -23,14 +23,14 @@ struct Fan {
 };
 
 // Each triangle (v, a, b) adds a and b; around an interior vertex each neighbour counts twice.
-std::vector<Fan> measure_fans(const TriMesh& mesh) {
-  std::vector<Fan> fans(mesh.positions.size());
+std::vector<VertexFan> measure_fans(const TriMesh& mesh) {
+  std::vector<VertexFan> fans(mesh.positions.size());
   std::vector<std::uint64_t> link(mesh.positions.size(), 0);
   for (const Triangle& t : mesh.triangles) {
     const glm::dvec3 normal = area_normal(mesh, t);
     const double area = glm::length(normal);
     for (std::size_t k = 0; k < 3; ++k) {
-      Fan& fan = fans[t[k]];
+      VertexFan& fan = fans[t[k]];
       const std::uint32_t a = t[(k + 1) % 3], b = t[(k + 2) % 3];
       const glm::dvec3 p(mesh.positions[t[k]]), pa(mesh.positions[a]), pb(mesh.positions[b]);
       fan.neighbour_sum += pa + pb;
@@ -46,7 +46,7 @@ std::vector<Fan> measure_fans(const TriMesh& mesh) {
   return fans;
 }
 
-bool is_crease(const Fan& fan) {
+bool is_crease(const VertexFan& fan) {
   return glm::length(fan.normal_sum) < kCreaseCosine * fan.n_triangles;
 }
 
@@ -95,9 +95,9 @@ double mean_edge_length(const TriMesh& mesh) {
 void relax_tangentially(TriMesh& mesh, int n, double floor_height) {
   const double floor = least_z(mesh) + floor_height, edge = mean_edge_length(mesh);
   for (int i = 0; i < n; ++i) {
-    const std::vector<Fan> fans = measure_fans(mesh);
+    const std::vector<VertexFan> fans = measure_fans(mesh);
     for (std::size_t v = 0; v < fans.size(); ++v) {
-      const Fan& fan = fans[v];
+      const VertexFan& fan = fans[v];
       const glm::dvec3 p(mesh.positions[v]);
       if (fan.is_boundary || is_crease(fan) || p.z <= floor ||
           fan.edge_sum > 4 * edge * fan.n_triangles)
@@ -112,9 +112,9 @@ void relax_tangentially(TriMesh& mesh, int n, double floor_height) {
 void add_waves(TriMesh& mesh, const Waves& waves, double floor_height) {
   const double edge = mean_edge_length(mesh), floor = least_z(mesh);
   const RandomWaves random(waves.wavelength, waves.seed);
-  const std::vector<Fan> fans = measure_fans(mesh);
+  const std::vector<VertexFan> fans = measure_fans(mesh);
   for (std::size_t v = 0; v < fans.size(); ++v) {
-    const Fan& fan = fans[v];
+    const VertexFan& fan = fans[v];
     const glm::dvec3 p(mesh.positions[v]);
     const double length = glm::length(fan.normal_sum);
     if (fan.is_boundary || !(length > 0)) continue;

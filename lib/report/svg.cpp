@@ -6,7 +6,7 @@
 namespace viewcell {
 namespace {
 
-constexpr double kGlyphWidth = 0.61;  // of the font's size: DejaVu Sans, a wide one, on average
+constexpr double kSvgGlyphWidth = 0.61;  // of the font's size: DejaVu Sans, a wide one, on average
 
 bool is_continuation(unsigned char byte) {
   return (byte & 0xc0) == 0x80;
@@ -89,7 +89,7 @@ double svg_text_width(const std::string& text, double font_px) {
   const auto n = std::count_if(text.begin(), text.end(), [](char c) {
     return !is_continuation(static_cast<unsigned char>(c));
   });
-  return kGlyphWidth * font_px * static_cast<double>(n);
+  return kSvgGlyphWidth * font_px * static_cast<double>(n);
 }
 
 }  // namespace viewcell

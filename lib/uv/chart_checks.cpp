@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "image/texel_spans.h"
 #include "uv/chart_map.h"
+#include "uv/triangle_map.h"
 #include "uv/uv_stretch.h"
 
 namespace viewcell {
@@ -33,14 +34,6 @@ struct Shared {
 
   auto operator<=>(const Shared&) const = default;
 };
-
-std::array<glm::dvec2, 3> texels_of(const TriMesh& mesh, std::size_t t, int width_px,
-                                    int height_px) {
-  std::array<glm::dvec2, 3> out;
-  for (std::size_t k = 0; k < 3; ++k)
-    out[k] = to_texels(mesh.texcoords[3 * t + k], width_px, height_px);
-  return out;
-}
 
 // Triangles by chart, then number.
 struct Members {

@@ -17,7 +17,7 @@
 namespace viewcell {
 namespace {
 
-ProgressiveRecord make_record(Placement placement) {
+ProgressiveRecord make_file_record(Placement placement) {
   BuildOptions options;
   options.metric = MetricKind::mapping;
   options.placement = placement;
@@ -31,7 +31,7 @@ struct Logged {
   AdaptationLog log;
 
   explicit Logged(Placement placement)
-      : record(make_record(placement)), log(make_adaptation_log(record)) {
+      : record(make_file_record(placement)), log(make_adaptation_log(record)) {
     log.n_folded = 11, log.n_unmapped = 7, log.n_moved = 5;
   }
 };

@@ -13,7 +13,7 @@
 namespace viewcell {
 namespace {
 
-constexpr int kWidth = 96, kHeight = 64;
+constexpr int kLevelWidth = 96, kLevelHeight = 64;
 
 // A progressive mesh of a bump that fills most of the texture, and its log.
 struct Bump {
@@ -21,7 +21,7 @@ struct Bump {
   AdaptationLog log;
   ImageRgba8 texture;
 
-  Bump() : texture(kWidth, kHeight) {
+  Bump() : texture(kLevelWidth, kLevelHeight) {
     TriMesh grid = make_flat_grid(12);
     for (glm::vec3& p : grid.positions) {
       const float x = p.x / 12 - 0.5f, y = p.y / 12 - 0.5f;
@@ -33,8 +33,8 @@ struct Bump {
     options.metric = MetricKind::mapping;
     record = build_progressive_mesh(grid, options).record;
     log = make_adaptation_log(record);
-    for (int y = 0; y < kHeight; ++y)
-      for (int x = 0; x < kWidth; ++x)
+    for (int y = 0; y < kLevelHeight; ++y)
+      for (int x = 0; x < kLevelWidth; ++x)
         texture.at(x, y) = {static_cast<std::uint8_t>(2 * x), static_cast<std::uint8_t>(3 * y),
                             static_cast<std::uint8_t>((x / 8 + y / 8) % 2 * 200), 255};
   }
@@ -72,8 +72,8 @@ TEST(AdaptLevels, GoThereAndBack) {
   EXPECT_LE(levels.counts().n_adaptations, levels.n_collapsed());
   EXPECT_GT(10 * levels.counts().n_adaptations, 9 * levels.n_collapsed());
   const IndexMap map = levels.map();
-  EXPECT_EQ(map.width_px, kWidth);
-  EXPECT_EQ(map.height_px, kHeight);
+  EXPECT_EQ(map.width_px, kLevelWidth);
+  EXPECT_EQ(map.height_px, kLevelHeight);
   EXPECT_NE(levels.bake().pixels, bump.texture.pixels);
   EXPECT_EQ(levels.bake().pixels, levels.bake(bump.texture).pixels);
   EXPECT_EQ(levels.bake().pixels,
@@ -111,9 +111,9 @@ TEST(AdaptLevels, StartWhereAnotherStopped) {
   whole.set_faces(100), rest.set_faces(100);
   EXPECT_LT(distance(whole.map(), rest.map()), 0.1);
   EXPECT_EQ(whole.charts().faces, rest.charts().faces);
-  options.width_px = kWidth / 2;
+  options.width_px = kLevelWidth / 2;
   EXPECT_THROW(bump.levels(options), UsageError);
-  options.width_px = 0, options.height_px = kHeight + 1;
+  options.width_px = 0, options.height_px = kLevelHeight + 1;
   EXPECT_THROW(bump.levels(options), UsageError);
 }
 
@@ -140,7 +140,7 @@ TEST(AdaptLevels, KindsOfTexelsDiffer) {
   AdaptLevels levels = bump.levels(options);
   levels.set_faces(80);
   const ImageRgba8 texture = levels.bake();
-  EXPECT_EQ(texture.width_px, kWidth);
+  EXPECT_EQ(texture.width_px, kLevelWidth);
   EXPECT_NE(texture.pixels, bump.texture.pixels);
 }
 

@@ -11,12 +11,12 @@
 namespace viewcell {
 namespace {
 
-constexpr int kWidth = 80, kHeight = 40;
+constexpr int kPackWidth = 80, kPackHeight = 40;
 
 // The pack of each step; 0 for those that are left out.
 std::vector<std::size_t> packs_of(const HandLog& hand, std::size_t from, std::size_t to,
                                   bool pack = true) {
-  const AdaptPacks packs = pack_adaptations(hand.log, from, to, kWidth, kHeight, pack);
+  const AdaptPacks packs = pack_adaptations(hand.log, from, to, kPackWidth, kPackHeight, pack);
   EXPECT_EQ(packs.first.front(), 0u);
   EXPECT_EQ(packs.first.back(), packs.order.size());
   std::vector<std::size_t> out(hand.log.n_steps(), 0);
@@ -33,7 +33,7 @@ std::vector<std::size_t> packs_of(const HandLog& hand, std::size_t from, std::si
 using Packs = std::vector<std::size_t>;
 
 HandLog make_boxes(const std::vector<glm::dvec4>& boxes, bool has_border = false) {
-  HandLog hand(kWidth, kHeight, 1);
+  HandLog hand(kPackWidth, kPackHeight, 1);
   for (const glm::dvec4& box : boxes) hand.add_box(box, box, 0, has_border);
   return hand;
 }
@@ -54,7 +54,7 @@ TEST(AdaptPacks, TheFirstThatMayBe) {
 
 // Where a step goes counts as well as where it was.
 TEST(AdaptPacks, BothPlacesCount) {
-  HandLog hand(kWidth, kHeight, 1);
+  HandLog hand(kPackWidth, kPackHeight, 1);
   hand.add_box({1, 1, 6, 6}, {40, 1, 46, 6}, 0, false);
   hand.add_box({70, 30, 75, 35}, {41, 2, 44, 5}, 0, false);
   EXPECT_EQ(packs_of(hand, 0, 2), (Packs{1, 2}));
@@ -100,7 +100,7 @@ struct Touched {
     const Adaptation adaptation = hand.log.of(step);
     for (const AdaptationPoint& p : adaptation.points)
       for (const glm::vec2& uv : {p.before, p.after}) {
-        const glm::dvec2 at(uv.x * kWidth - 0.5, (1 - uv.y) * kHeight - 0.5);
+        const glm::dvec2 at(uv.x * kPackWidth - 0.5, (1 - uv.y) * kPackHeight - 0.5);
         lo = glm::min(lo, at), hi = glm::max(hi, at);
       }
     for (const AdaptationTriangle& t : adaptation.triangles)
@@ -125,9 +125,9 @@ TEST(AdaptPacks, NoStepMeetsAnotherOfItsPack) {
   for (std::uint64_t seed = 0; seed < 100; ++seed) {
     SCOPED_TRACE(seed);
     Random random(seed);
-    HandLog hand(kWidth, kHeight, 1);
+    HandLog hand(kPackWidth, kPackHeight, 1);
     const auto box = [&] {
-      const double x = random.uniform(-1, kWidth - 1), y = random.uniform(-1, kHeight - 1);
+      const double x = random.uniform(-1, kPackWidth - 1), y = random.uniform(-1, kPackHeight - 1);
       return glm::dvec4(x, y, x + random.uniform(0, 9), y + random.uniform(0, 9));
     };
     for (int i = 0; i < 60; ++i) {

@@ -18,7 +18,7 @@
 namespace viewcell {
 namespace {
 
-constexpr int kSize = 256;
+constexpr int kGlSize = 256;
 
 const Gl& gl() {
   static GlContext context(GlEngine::kOsmesa);
@@ -69,7 +69,7 @@ struct Levels {
 };
 
 double distance_texels(const glm::vec2& a, const glm::vec2& b) {
-  return kSize * glm::distance(a, b);
+  return kGlSize * glm::distance(a, b);
 }
 
 // How far two maps are apart: charts, gutters and what no one touched.
@@ -96,7 +96,7 @@ std::size_t n_other_owners(const TextureAdapter<Texel>& cpu, const GlTextureAdap
 }
 
 IndexMap start_map() {
-  return make_index_map<glm::vec2>(kSize, kSize);
+  return make_index_map<glm::vec2>(kGlSize, kGlSize);
 }
 
 class GlTextureAdapterOf : public testing::TestWithParam<bool> {};
@@ -203,19 +203,20 @@ void expect_near(const Image<Texel>& start, Channels&& channels, double near) {
 
 TEST(GlTextureAdapter, WholeNumbersAgree) {
   const auto uv = [](const auto& texel) { return texel.uv; };
-  expect_near(make_index_map<Unorm16Texel>(kSize, kSize), uv, 2);
-  expect_near(make_index_map<Unorm8Texel>(kSize, kSize), uv, 1);
+  expect_near(make_index_map<Unorm16Texel>(kGlSize, kGlSize), uv, 2);
+  expect_near(make_index_map<Unorm8Texel>(kGlSize, kGlSize), uv, 1);
 }
 
 TEST(GlTextureAdapter, HalfFloatsAgree) {
   expect_near(
-      make_index_map<HalfTexel>(kSize, kSize), [](const HalfTexel& texel) { return texel.uv; }, 2);
+      make_index_map<HalfTexel>(kGlSize, kGlSize), [](const HalfTexel& texel) { return texel.uv; },
+      2);
 }
 
 TEST(GlTextureAdapter, ColoursAgree) {
-  ImageRgba8 texture(kSize, kSize);
-  for (int y = 0; y < kSize; ++y)
-    for (int x = 0; x < kSize; ++x)
+  ImageRgba8 texture(kGlSize, kGlSize);
+  for (int y = 0; y < kGlSize; ++y)
+    for (int x = 0; x < kGlSize; ++x)
       for (std::size_t k = 0; k < 4; ++k) {
         const double wave = std::sin(0.11 * x + double(k)) * std::cos(0.07 * y - double(k));
         texture.at(x, y)[k] = static_cast<std::uint8_t>(127 + 120 * wave);

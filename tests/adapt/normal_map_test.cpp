@@ -14,15 +14,16 @@
 namespace viewcell {
 namespace {
 
-constexpr double kHeight = 0.3;
+constexpr double kRelief = 0.3;
 
 // A mesh of the finest level, and of one of n faces with its indexing map.
-struct Levels {
+struct NormalLevels {
   TriMesh finest, level;
   LevelCharts finest_charts, charts;
   IndexMap map;
 
-  Levels(const TriMesh& mesh, std::size_t n, int size_px, Placement placement = Placement::half) {
+  NormalLevels(const TriMesh& mesh, std::size_t n, int size_px,
+               Placement placement = Placement::half) {
     BuildOptions options;
     options.metric = MetricKind::mapping;
     options.target_faces = 40;
@@ -45,7 +46,7 @@ struct Levels {
 };
 
 // Smooth, seeded, tilted by at most 20 degrees or so.
-ImageRgba8 make_relief(int size_px, std::uint64_t seed) {
+ImageRgba8 make_relief_map(int size_px, std::uint64_t seed) {
   Random random(seed);
   const double a = random.uniform(0.03, 0.1), b = random.uniform(0.03, 0.1);
   ImageRgba8 image(size_px, size_px);
@@ -113,7 +114,7 @@ TEST(NormalCode, EveryCodeComesBack) {
 // Against all triangles, inside, beside and far off. Seeded.
 TEST(TriangleGrid, FindsWhatTryingAllFinds) {
   Random random(3);
-  TriMesh mesh = make_bump(kHeight);
+  TriMesh mesh = make_bump(kRelief);
   std::vector<std::uint32_t> charts;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) charts.push_back(t % 3 == 0);
   for (glm::vec2& uv : mesh.texcoords) uv.y *= 0.3f;
@@ -145,7 +146,7 @@ TEST(NormalMapBake, TheFinestLevelKeepsEveryCode) {
     p = {std::uint8_t(60 + random.below(136)), std::uint8_t(60 + random.below(136)),
          std::uint8_t(160 + random.below(90)), 255};
   for (const bool is_mirrored : {false, true}) {
-    const Levels levels(make_bump(kHeight, is_mirrored), 1000000, 128);
+    const NormalLevels levels(make_bump(kRelief, is_mirrored), 1000000, 128);
     const BakedNormalMap baked = levels.bake(&noise);
     EXPECT_EQ(baked.n_clamped, 0u);
     EXPECT_NEAR(double(baked.n_texels), 105 * 105, 250);
@@ -163,8 +164,8 @@ TEST(NormalMapBake, LevelsShowTheNormalsOfTheFinest) {
   for (const auto& [n, is_mirrored, placement] :
        {std::tuple{300, false, Placement::half}, std::tuple{110, true, Placement::half},
         std::tuple{60, false, Placement::half}, std::tuple{150, true, Placement::full}}) {
-    const Levels levels(make_bump(kHeight, is_mirrored), std::size_t(n), kSize, placement);
-    const ImageRgba8 relief = make_relief(96, std::uint64_t(n));  // of another size
+    const NormalLevels levels(make_bump(kRelief, is_mirrored), std::size_t(n), kSize, placement);
+    const ImageRgba8 relief = make_relief_map(96, std::uint64_t(n));  // of another size
     const BakedNormalMap baked = levels.bake(&relief);
     const Surface finest{levels.finest}, level{levels.level};
     std::size_t n_texels = 0;
@@ -190,7 +191,7 @@ TEST(NormalMapBake, LevelsShowTheNormalsOfTheFinest) {
 // Without a map, the normals of the bump itself, by its formula, at the places that the map holds.
 TEST(NormalMapBake, FlatOnesHoldTheShadingOfTheFinest) {
   constexpr int kSize = 128;
-  const Levels levels(make_bump(kHeight), 80, kSize);
+  const NormalLevels levels(make_bump(kRelief), 80, kSize);
   const BakedNormalMap baked = levels.bake(nullptr);
   const Surface level{levels.level};
   double sum = 0, of_level = 0, n = 0;
@@ -199,7 +200,7 @@ TEST(NormalMapBake, FlatOnesHoldTheShadingOfTheFinest) {
       glm::dmat3 frame;
       if (!level.find(own_place(x, y, kSize, kSize), 0, frame)) continue;
       const glm::dvec2 at = (glm::dvec2(levels.map.at(x, y)) - 0.1) / 0.8 - 0.5;
-      const double slope = 24 * kHeight * std::exp(-12 * glm::dot(at, at));
+      const double slope = 24 * kRelief * std::exp(-12 * glm::dot(at, at));
       const glm::dvec3 normal(slope * at.x, slope * at.y, 1);
       sum += angle_deg(normal, frame * decode_normal(baked.image.at(x, y)));
       of_level += angle_deg(normal, frame[2]);
@@ -210,8 +211,8 @@ TEST(NormalMapBake, FlatOnesHoldTheShadingOfTheFinest) {
 }
 
 TEST(NormalMapBake, GreenMayPointDown) {
-  const Levels levels(make_bump(kHeight), 100, 96);
-  const ImageRgba8 up = make_relief(96, 4);
+  const NormalLevels levels(make_bump(kRelief), 100, 96);
+  const ImageRgba8 up = make_relief_map(96, 4);
   ImageRgba8 down = up;
   for (Rgba8& p : down.pixels) p[1] = static_cast<std::uint8_t>(255 - p[1]);
   EXPECT_EQ(levels.bake(&down, {.y = NormalMapY::down}).image.pixels,
@@ -220,8 +221,8 @@ TEST(NormalMapBake, GreenMayPointDown) {
 }
 
 TEST(NormalMapBake, TheSameBytesForAnyNumberOfThreads) {
-  const Levels levels(make_bump(kHeight), 100, 96);
-  const ImageRgba8 relief = make_relief(64, 5);
+  const NormalLevels levels(make_bump(kRelief), 100, 96);
+  const ImageRgba8 relief = make_relief_map(64, 5);
   const BakedNormalMap one = levels.bake(&relief, {.n_threads = 1});
   const BakedNormalMap three = levels.bake(&relief, {.n_threads = 3});
   EXPECT_EQ(one.image.pixels, three.image.pixels);

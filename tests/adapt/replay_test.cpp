@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::uint32_t kNone = 0xffffffffu;
 
-ProgressiveRecord make_record(std::uint64_t seed, Placement placement) {
+ProgressiveRecord make_replay_record(std::uint64_t seed, Placement placement) {
   BuildOptions options;
   options.metric = MetricKind::mapping;
   options.placement = placement;
@@ -51,7 +51,7 @@ float any_number(Random& random) {
 TEST(AdaptFile, ReadsBack) {
   const TemporaryFolder folder;
   for (const Placement placement : {Placement::half, Placement::full}) {
-    const ProgressiveRecord record = make_record(1, placement);
+    const ProgressiveRecord record = make_replay_record(1, placement);
     const AdaptationLog log = make_adaptation_log(record);
     write_adapt(folder.path() / "a.adapt", log, record);
     const AdaptationLog read = read_adapt(folder.path() / "a.adapt", record);
@@ -67,7 +67,7 @@ TEST(AdaptFile, ReadsBack) {
 
 TEST(AdaptFile, PointsBeyondReachAreRefused) {
   const TemporaryFolder folder;
-  const ProgressiveRecord record = make_record(2, Placement::half);
+  const ProgressiveRecord record = make_replay_record(2, Placement::half);
   const AdaptationLog log = make_adaptation_log(record);
   for (const float far : {1.1e4f, -1e30f, 3e38f, INFINITY, -INFINITY, NAN})
     for (const auto place : {&AdaptationPoint::before, &AdaptationPoint::after})
@@ -81,7 +81,7 @@ TEST(AdaptFile, PointsBeyondReachAreRefused) {
 
 // Cells that reach far out of the texture take room for what of them lies in it.
 TEST(AdaptFile, FarPointsTakeNoRoom) {
-  const ProgressiveRecord record = make_record(6, Placement::half);
+  const ProgressiveRecord record = make_replay_record(6, Placement::half);
   AdaptationLog log = make_adaptation_log(record);
   for (std::size_t i = 0; i < log.points.size(); i += 5) log.points[i].after = {-9000, 9000};
   adapt_all(record, log);
@@ -90,7 +90,7 @@ TEST(AdaptFile, FarPointsTakeNoRoom) {
 // A log that is read can be followed, whatever it holds.
 TEST(AdaptFile, WrongNumbersAreRefusedOrHarmless) {
   const TemporaryFolder folder;
-  const ProgressiveRecord record = make_record(3, Placement::full);
+  const ProgressiveRecord record = make_replay_record(3, Placement::full);
   const AdaptationLog whole = make_adaptation_log(record);
   Random random(4);
   int n_refused = 0;
@@ -140,7 +140,8 @@ TEST(AdaptFile, LogsOfWrongRecordsAreRefusedOrHarmless) {
   for (int i = 0; i < kTimes; ++i) {
     SCOPED_TRACE(i);
     Random random(static_cast<std::uint64_t>(i));
-    ProgressiveRecord r = make_record(5, random.below(2) ? Placement::half : Placement::full);
+    ProgressiveRecord r =
+        make_replay_record(5, random.below(2) ? Placement::half : Placement::full);
     const std::uint32_t wrong = random.below(4) ? random.below(200) : kNone;
     switch (random.below(9)) {
       case 0:

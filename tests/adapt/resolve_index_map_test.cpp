@@ -7,24 +7,24 @@
 namespace viewcell {
 namespace {
 
-constexpr int kSize = 32;
+constexpr int kMapSize = 32;
 constexpr Rgba8 kGround{255, 0, 255, 255}, kSkin{10, 200, 30, 255}, kHair{90, 60, 20, 255},
     kRim{40, 40, 200, 255};
 
 // Of one chart from x or, turned, from y = 0 to `end` texels.
 LevelCharts make_strip(int end, bool is_turned) {
-  HandLog hand(kSize, kSize, 1);
-  hand.add_chart(is_turned ? glm::dvec4(-0.5, -0.5, kSize - 0.5, end - 0.5)
-                           : glm::dvec4(-0.5, -0.5, end - 0.5, kSize - 0.5),
+  HandLog hand(kMapSize, kMapSize, 1);
+  hand.add_chart(is_turned ? glm::dvec4(-0.5, -0.5, kMapSize - 0.5, end - 0.5)
+                           : glm::dvec4(-0.5, -0.5, end - 0.5, kMapSize - 0.5),
                  0);
   return hand.charts;
 }
 
 // Skin, hair from 8 on, a rim from 12 on, ground from 16 on; by columns or rows.
 ImageRgba8 make_texture(bool is_turned) {
-  ImageRgba8 out(kSize, kSize);
-  for (int y = 0; y < kSize; ++y)
-    for (int x = 0; x < kSize; ++x) {
+  ImageRgba8 out(kMapSize, kMapSize);
+  for (int y = 0; y < kMapSize; ++y)
+    for (int x = 0; x < kMapSize; ++x) {
       const int at = is_turned ? y : x;
       out.at(x, y) = at < 8 ? kSkin : at < 12 ? kHair : at < 16 ? kRim : kGround;
     }
@@ -34,15 +34,15 @@ ImageRgba8 make_texture(bool is_turned) {
 // The map that shows at each texel of a line the texel (at) says; lines are all alike.
 template <typename At>
 IndexMap make_map(bool is_turned, const At& at) {
-  IndexMap out(kSize, kSize);
-  for (int y = 0; y < kSize; ++y)
-    for (int x = 0; x < kSize; ++x) {
+  IndexMap out(kMapSize, kMapSize);
+  for (int y = 0; y < kMapSize; ++y)
+    for (int x = 0; x < kMapSize; ++x) {
       const double place = at(is_turned ? y : x);
-      out.at(x, y) = own_place(x, y, kSize, kSize);
+      out.at(x, y) = own_place(x, y, kMapSize, kMapSize);
       if (is_turned)
-        out.at(x, y).y = static_cast<float>(1 - (place + 0.5) / kSize);
+        out.at(x, y).y = static_cast<float>(1 - (place + 0.5) / kMapSize);
       else
-        out.at(x, y).x = static_cast<float>((place + 0.5) / kSize);
+        out.at(x, y).x = static_cast<float>((place + 0.5) / kMapSize);
     }
   return out;
 }
@@ -55,9 +55,9 @@ Rgba8 at_line(const ImageRgba8& image, bool is_turned, int at) {
 TEST(BakeTexture, TheIdentityIsTheTexture) {
   const LevelCharts charts = make_strip(16, false);
   const ImageRgba8 texture = make_texture(false);
-  IndexMap map(kSize, kSize);
-  for (int y = 0; y < kSize; ++y)
-    for (int x = 0; x < kSize; ++x) map.at(x, y) = own_place(x, y, kSize, kSize);
+  IndexMap map(kMapSize, kMapSize);
+  for (int y = 0; y < kMapSize; ++y)
+    for (int x = 0; x < kMapSize; ++x) map.at(x, y) = own_place(x, y, kMapSize, kMapSize);
   EXPECT_EQ(resolve_index_map(map, texture, charts, charts).pixels, texture.pixels);
 }
 
@@ -81,7 +81,7 @@ TEST(BakeTexture, WhatChartsLeaveTakesTheGutter) {
     });
     const ImageRgba8 out = resolve_index_map(map, make_texture(is_turned),
                                              make_strip(16, is_turned), make_strip(8, is_turned));
-    for (int at = 0; at < kSize; ++at)
+    for (int at = 0; at < kMapSize; ++at)
       EXPECT_EQ(at_line(out, is_turned, at), at < 8 ? kSkin : at < 16 ? kHair : kGround) << at;
   }
 }
@@ -94,7 +94,7 @@ TEST(BakeTexture, GrownChartsCoverTheGround) {
     });
     const ImageRgba8 out = resolve_index_map(map, make_texture(is_turned),
                                              make_strip(16, is_turned), make_strip(20, is_turned));
-    for (int at = 12; at < kSize; ++at)
+    for (int at = 12; at < kMapSize; ++at)
       EXPECT_EQ(at_line(out, is_turned, at), at < 16 ? kRim : at < 22 ? kHair : kGround) << at;
   }
 }

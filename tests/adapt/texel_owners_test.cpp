@@ -29,14 +29,14 @@ TEST(TexelOwners, OfChartsThatMeet) {
   hand.add_chart({8.5, 5.5, 14.5, 9.5}, 2);
   hand.add_chart({19.5, 0.5, 30, 2.5}, 3);
   const Image<std::uint16_t> owners = make_texel_owners(hand.charts, 24, 16);
-  struct Texels {
+  struct FixedTexels {
     int name, x0, y0, x1, y1;
   };
   for (int y = 0; y < 16; ++y)
     for (int x = 0; x < 24; ++x) {
       int wanted = 0, nearest = static_cast<int>(kGutter) + 1;
-      for (const Texels& t :
-           {Texels{5, 6, 6, 10, 9}, Texels{4, 20, 1, 23, 2}, Texels{3, 9, 6, 14, 9}}) {
+      for (const FixedTexels& t :
+           {FixedTexels{5, 6, 6, 10, 9}, FixedTexels{4, 20, 1, 23, 2}, FixedTexels{3, 9, 6, 14, 9}}) {
         const int away = std::max({t.x0 - x, x - t.x1, t.y0 - y, y - t.y1, 0});
         if (away < nearest) nearest = away, wanted = t.name | (away == 0 ? kInsideChart : 0);
       }

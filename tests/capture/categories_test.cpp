@@ -14,7 +14,7 @@ namespace {
 
 using Category = PixelCategory;
 
-CaptureTile capture(const Scene& scene, const glm::dvec3& eye) {
+CaptureTile capture_one(const Scene& scene, const glm::dvec3& eye) {
   const auto viewed =
       choose_view(eye, world_points(scene, scene.objects[0]), {.resolution_px = 512});
   return RayCapture(scene, 1).capture(ObjectId(0), viewed->view, viewed->crop);
@@ -48,7 +48,7 @@ TEST(ClassifyPixels, PlaneAtAGrazingAngleHasNoInnerEdges) {
     SCOPED_TRACE(height);
     TriMesh mesh;
     add_square(mesh, {20, 30, 0}, {0, -60, 0}, {300, 0, 0});  // level, seen from above
-    const CaptureTile tile = capture(make_scene_with(mesh), {0, 0, height});
+    const CaptureTile tile = capture_one(make_scene_with(mesh), {0, 0, height});
     const auto categories = classify_pixels(tile);
     auto counts = count(categories);
     EXPECT_GT(counts[Category::exterior_silhouette], 100u);
@@ -79,7 +79,7 @@ TEST(ClassifyPixels, StepIsASilhouetteOnItsNearSideOnly) {
   TriMesh mesh;
   add_square(mesh, {100, 40, -40}, {0, -80, 0}, {0, 0, 80});
   add_square(mesh, {50, 8, -8}, {0, -16, 0}, {0, 0, 16});
-  const CaptureTile tile = capture(make_scene_with(mesh), {0, 0, 0});
+  const CaptureTile tile = capture_one(make_scene_with(mesh), {0, 0, 0});
   const auto categories = classify_pixels(tile);
   std::size_t n_edge = 0;
   for (int y = 1; y + 1 < tile.crop.height_px; ++y)
@@ -104,7 +104,7 @@ TEST(ClassifyPixels, RidgeIsASharpEdge) {
     TriMesh mesh;
     add_square(mesh, {x1, 2, -6}, {x0 - x1, -2, 0}, {0, 0, 12});
     add_square(mesh, {x0, 0, -6}, {x1 - x0, -2, 0}, {0, 0, 12});
-    const CaptureTile tile = capture(make_scene_with(mesh), {0, 0, 0});
+    const CaptureTile tile = capture_one(make_scene_with(mesh), {0, 0, 0});
     const auto categories = classify_pixels(tile);
     const int ridge = static_cast<int>(std::floor(
                           choose_view({0, 0, 0}, world_points(make_scene_with(mesh), SceneObject{}),
@@ -131,7 +131,7 @@ TEST(ClassifyPixels, RidgeIsASharpEdge) {
 // What is behind the object, or filled in there, does not matter; nor does the unit.
 TEST(ClassifyPixels, DependsOnTheObjectAlone) {
   const Scene scene = make_scene_of(make_noisy_torus(40, 20, 0.5, 1));
-  const CaptureTile tile = capture(scene, {50, 20, 8});
+  const CaptureTile tile = capture_one(scene, {50, 20, 8});
   const auto expected = classify_pixels(tile);
   auto counts = count(expected);
   EXPECT_GT(counts[Category::sharp_edge], 0u);

@@ -85,8 +85,8 @@ struct CullingSum {
 
 // The mesh turned at random, a cell of size 50 at a random place around it, an eye anywhere in the
 // cell's prism looking at the mesh.
-CullingSum compare(const TriMesh& mesh, int n_pairs, std::uint64_t seed, double least_distance,
-                   double most_distance) {
+CullingSum compare_items(const TriMesh& mesh, int n_pairs, std::uint64_t seed,
+                         double least_distance, double most_distance) {
   const ItemBuffer items(mesh);
   Random random(seed);
   CullingSum sum;
@@ -126,23 +126,23 @@ CullingSum compare(const TriMesh& mesh, int n_pairs, std::uint64_t seed, double 
   return sum;
 }
 
-void report(const char* name, const CullingSum& sum) {
+void report_items(const char* name, const CullingSum& sum) {
   std::printf("%s: %zu pairs, %zu pixels, %zu triangles seen, %zu of them culled; %.1f %% culled\n",
               name, sum.n_pairs, sum.n_px, sum.n_seen, sum.n_culled_and_seen,
               100 * sum.culled_share);
 }
 
 TEST(ItemBuffer, ShowsNoCulledTriangleOfATorus) {
-  const CullingSum sum = compare(make_noisy_torus(120, 60, 0.15, 1), 80, 1, 75, 300);
-  report("torus", sum);
+  const CullingSum sum = compare_items(make_noisy_torus(120, 60, 0.15, 1), 80, 1, 75, 300);
+  report_items("torus", sum);
   EXPECT_EQ(sum.n_culled_and_seen, 0u);
   EXPECT_GT(sum.culled_share, 0.40);
   EXPECT_GT(sum.n_seen, 10000u);
 }
 
 TEST(ItemBuffer, ShowsNoCulledTriangleOfASphere) {
-  const CullingSum sum = compare(make_sphere(20, 120, 60, 0.01, 2), 80, 2, 75, 300);
-  report("sphere", sum);
+  const CullingSum sum = compare_items(make_sphere(20, 120, 60, 0.01, 2), 80, 2, 75, 300);
+  report_items("sphere", sum);
   EXPECT_EQ(sum.n_culled_and_seen, 0u);
   EXPECT_GT(sum.culled_share, 0.40);
   EXPECT_GT(sum.n_seen, 10000u);
@@ -151,16 +151,16 @@ TEST(ItemBuffer, ShowsNoCulledTriangleOfASphere) {
 TEST(ItemBuffer, ShowsNoCulledTriangleOfTheBunny) {
   const std::optional<TriMesh> bunny = read_bunny(43.6);
   if (!bunny) GTEST_SKIP() << "the bunny is not here";
-  const CullingSum sum = compare(*bunny, 60, 3, 75, 300);
-  report("bunny", sum);
+  const CullingSum sum = compare_items(*bunny, 60, 3, 75, 300);
+  report_items("bunny", sum);
   EXPECT_EQ(sum.n_culled_and_seen, 0u);
   EXPECT_GT(sum.culled_share, 0.40);
 }
 
 // A sphere of radius 20 at 100 units; [Chen03] reports 43.7 % for its objects at this cell size.
 TEST(ItemBuffer, FortyPercentIsCulledAtAHundredUnits) {
-  const CullingSum smooth = compare(make_sphere(20, 120, 60), 20, 4, 100, 100);
-  report("smooth sphere at 100", smooth);
+  const CullingSum smooth = compare_items(make_sphere(20, 120, 60), 20, 4, 100, 100);
+  report_items("smooth sphere at 100", smooth);
   EXPECT_GT(smooth.culled_share, 0.40);
 }
 

@@ -16,16 +16,17 @@
 namespace viewcell {
 namespace {
 
-constexpr int kSize = 192;
+constexpr int kLookupSize = 192;
 
 MeshStyle unlit_style() {
-  MeshStyle style = plain_style(kSize);
+  MeshStyle style = plain_style(kLookupSize);
   style.lit = false;
   return style;
 }
 
-ImageRgba8 draw(const TriMesh& mesh, const ImageRgba8& texture, const IndexMap* map,
-                const Camera& view = front_view(), const MeshStyle& style = unlit_style()) {
+ImageRgba8 draw_through_map(const TriMesh& mesh, const ImageRgba8& texture, const IndexMap* map,
+                            const Camera& view = front_view(),
+                            const MeshStyle& style = unlit_style()) {
   const MeshFrame frame = make_frame(box_of_triangles(mesh), "z", "mesh");
   return MeshRenderer(shared_context().gl(), mesh, frame, &texture, style, map).draw(view);
 }
@@ -72,8 +73,8 @@ TEST(IndexMap, IdentityChangesNothing) {
       for (const glm::ivec2 size : {glm::ivec2(96, 64), glm::ivec2(31, 50), glm::ivec2(1, 1)}) {
         const IndexMap map = make_map(size.x, size.y, same);
         for (const Camera& view : {front_view(), make_views(3)[0], make_views(3)[1]}) {
-          const ImageRgba8 plain = draw(mesh, texture, nullptr, view, style);
-          EXPECT_LE(most_difference(draw(mesh, texture, &map, view, style), plain), 1)
+          const ImageRgba8 plain = draw_through_map(mesh, texture, nullptr, view, style);
+          EXPECT_LE(most_difference(draw_through_map(mesh, texture, &map, view, style), plain), 1)
               << repeats << " " << flip_v << " " << size.x;
         }
       }
@@ -94,10 +95,10 @@ TEST(IndexMap, AffineMapsAreAffineTextureCoordinates) {
     const auto inner = [](const glm::vec2& uv) { return 0.1f + 0.8f * uv; };  // off the sides
     const IndexMap map = make_map(64, 48, send);
     for (const Camera& view : {front_view(), make_views(4)[1]}) {
-      const ImageRgba8 seen = draw(make_front_square(inner), texture, &map, view);
+      const ImageRgba8 seen = draw_through_map(make_front_square(inner), texture, &map, view);
       const ImageRgba8 expected =
-          draw(make_front_square([&](const glm::vec2& uv) { return send(inner(uv)); }), texture,
-               nullptr, view);
+          draw_through_map(make_front_square([&](const glm::vec2& uv) { return send(inner(uv)); }),
+                           texture, nullptr, view);
       EXPECT_LE(most_difference(seen, expected), 2) << i;
     }
   }
@@ -166,8 +167,8 @@ Rgba8 sample(const ImageRgba8& image, const glm::dvec2& uv) {
 // Where the ray through a pixel's centre meets the square.
 glm::dvec2 uv_of_pixel(int x, int y) {
   const glm::dmat4 frame_from_clip = glm::inverse(clip_from_world(front_view()));
-  const glm::dvec4 p =
-      frame_from_clip * glm::dvec4(2 * (x + 0.5) / kSize - 1, 1 - 2 * (y + 0.5) / kSize, 0.01, 1);
+  const glm::dvec4 p = frame_from_clip * glm::dvec4(2 * (x + 0.5) / kLookupSize - 1,
+                                                    1 - 2 * (y + 0.5) / kLookupSize, 0.01, 1);
   const glm::dvec3 eye = front_view().eye, ray = glm::dvec3(p) / p.w - eye;
   const glm::dvec3 hit = eye - eye.y / ray.y * ray;  // in radii of sqrt(2)
   return 0.5 + 0.5 * glm::root_two<double>() * glm::dvec2(hit.x, hit.z);
@@ -195,9 +196,9 @@ TEST(IndexMap, DrawsWhatItsTwinComputes) {
   std::size_t n_plain = 0, n_jumps = 0;
   for (int i = 0; i < 4; ++i) {
     const IndexMap map = make_charts(32, 40, random);
-    const ImageRgba8 image = draw(make_front_square(same), texture, &map);
-    for (int y = 0; y < kSize; ++y)
-      for (int x = 0; x < kSize; ++x) {
+    const ImageRgba8 image = draw_through_map(make_front_square(same), texture, &map);
+    for (int y = 0; y < kLookupSize; ++y)
+      for (int x = 0; x < kLookupSize; ++x) {
         const glm::dvec2 uv = uv_of_pixel(x, y);
         if (std::min({uv.x, uv.y, 1 - uv.x, 1 - uv.y}) < 0.01) continue;
         const Place place = look_up(map, uv);
@@ -225,7 +226,7 @@ TEST(IndexMap, NothingForeignIsSeenBetweenCharts) {
     return glm::vec2(uv.x < 0.5f ? 0.05f + 0.4f * uv.x : 0.55f + 0.4f * uv.x, uv.y);
   });
   for (const Camera& view : {front_view(), make_views(3)[1]}) {
-    const ImageRgba8 image = draw(make_front_square(same), texture, &map, view);
+    const ImageRgba8 image = draw_through_map(make_front_square(same), texture, &map, view);
     std::size_t n_red = 0, n_blue = 0;
     for (const Rgba8& p : image.pixels) {
       if (p[3] == 0) continue;
@@ -249,9 +250,9 @@ TEST(IndexMap, JumpsDoNotBlurTheTexture) {
     const IndexMap map = make_map(27, 32, [jump](const glm::vec2& uv) {
       return glm::vec2(uv.x < jump ? uv.x : uv.x + 16, uv.y);
     });
-    const ImageRgba8 image = draw(make_front_square(same), texture, &map);
-    for (int y = 0; y < kSize; ++y)
-      for (int x = 0; x < kSize; ++x) {
+    const ImageRgba8 image = draw_through_map(make_front_square(same), texture, &map);
+    for (int y = 0; y < kLookupSize; ++y)
+      for (int x = 0; x < kLookupSize; ++x) {
         const glm::dvec2 uv = uv_of_pixel(x, y);
         const double in_stripe = std::fmod(32 * uv.y, 4);  // its sides are at 0 and 4
         if (std::abs(uv.x - jump) > 0.05 || std::abs(uv.y - 0.5) > 0.45) continue;

@@ -15,7 +15,7 @@
 namespace viewcell {
 namespace {
 
-constexpr int kSize = 128;
+constexpr int kShotSize = 128;
 
 MeshFrame own_frame(const TriMesh& mesh, const char* up = "z") {
   return make_frame(box_of_triangles(mesh), up, "mesh");
@@ -83,18 +83,18 @@ ImageRgba8 make_quadrants(int width, int height) {
 TEST(MeshRenderer, SphereCoversAsManyPixelsInEveryView) {
   const TriMesh sphere = make_sphere(64);
   const MeshRenderer renderer(shared_context().gl(), sphere, kUnitFrame, nullptr,
-                              plain_style(kSize));
+                              plain_style(kShotSize));
   // The rim is seen under asin(1 / distance).
   const double distance = glm::length(make_views(1)[0].eye);
   const double radius_px =
-      0.5 * kSize * std::tan(std::asin(1 / distance)) / std::tan(glm::radians(kViewFovDeg / 2));
+      0.5 * kShotSize * std::tan(std::asin(1 / distance)) / std::tan(glm::radians(kViewFovDeg / 2));
   const double rim_px = glm::two_pi<double>() * radius_px;
   for (const Camera& view : make_views(12)) {
     const ImageRgba8 image = renderer.draw(view);
     EXPECT_NEAR(static_cast<double>(count_covered(image)), 0.5 * rim_px * radius_px, 0.25 * rim_px);
-    for (int i = 0; i < kSize; ++i)  // nothing is cut off
+    for (int i = 0; i < kShotSize; ++i)  // nothing is cut off
       for (const Rgba8& p :
-           {image.at(i, 0), image.at(i, kSize - 1), image.at(0, i), image.at(kSize - 1, i)})
+           {image.at(i, 0), image.at(i, kShotSize - 1), image.at(0, i), image.at(kShotSize - 1, i)})
         ASSERT_EQ(p[3], 0);
   }
 }
@@ -102,8 +102,8 @@ TEST(MeshRenderer, SphereCoversAsManyPixelsInEveryView) {
 // Where the ray through a pixel meets the unit sphere, if well inside the rim.
 bool hit_sphere(const Camera& view, int x, int y, glm::dvec3& normal) {
   const glm::dmat4 frame_from_clip = glm::inverse(clip_from_world(view));
-  const glm::dvec4 p =
-      frame_from_clip * glm::dvec4(2 * (x + 0.5) / kSize - 1, 1 - 2 * (y + 0.5) / kSize, 0.01, 1);
+  const glm::dvec4 p = frame_from_clip * glm::dvec4(2 * (x + 0.5) / kShotSize - 1,
+                                                    1 - 2 * (y + 0.5) / kShotSize, 0.01, 1);
   const glm::dvec3 ray = glm::normalize(glm::dvec3(p) / p.w - view.eye);
   const double b = glm::dot(ray, view.eye), c = glm::dot(view.eye, view.eye) - 1;
   if (b * b - c < 0.05) return false;
@@ -114,7 +114,7 @@ bool hit_sphere(const Camera& view, int x, int y, glm::dvec3& normal) {
 TEST(MeshRenderer, LitSphereHasTheColoursOfTheLightingFunction) {
   const TriMesh sphere = make_sphere(96);
   for (const bool light_follows : {false, true}) {
-    MeshStyle style = plain_style(kSize);
+    MeshStyle style = plain_style(kShotSize);
     style.light_follows = light_follows;
     style.base_color = {0.7f, 0.4f, 0.2f};
     const MeshRenderer renderer(shared_context().gl(), sphere, kUnitFrame, nullptr, style);
@@ -123,8 +123,8 @@ TEST(MeshRenderer, LitSphereHasTheColoursOfTheLightingFunction) {
       const glm::dmat3 turn = light_follows ? turn_eye_to_front(view) : glm::dmat3(1);
       std::size_t n = 0;
       glm::dvec3 normal;
-      for (int y = 0; y < kSize; ++y)
-        for (int x = 0; x < kSize; ++x) {
+      for (int y = 0; y < kShotSize; ++y)
+        for (int x = 0; x < kShotSize; ++x) {
           if (!hit_sphere(view, x, y, normal)) continue;
           const Rgba8 expected =
               encoded(shade(style.lighting, style.base_color, glm::vec3(turn * normal)));
@@ -138,8 +138,8 @@ TEST(MeshRenderer, LitSphereHasTheColoursOfTheLightingFunction) {
 
 // The square's side is sqrt(2) of a radius.
 TEST(MeshRenderer, SquareCoversItsPixels) {
-  const MeshStyle style = plain_style(kSize);
-  const double side_px = kSize * glm::one_over_root_two<double>() /
+  const MeshStyle style = plain_style(kShotSize);
+  const double side_px = kShotSize * glm::one_over_root_two<double>() /
                          (glm::length(front_view().eye) * std::tan(glm::radians(kViewFovDeg / 2)));
   const ImageRgba8 image = draw(make_square(), front_view(), style);
   EXPECT_NEAR(static_cast<double>(count_covered(image)), side_px * side_px, 2 * side_px);
@@ -147,12 +147,12 @@ TEST(MeshRenderer, SquareCoversItsPixels) {
 
 // Pixels at the rim are part sky, and yet covered.
 TEST(MeshRenderer, BackgroundIsTheSkyWithoutAlpha) {
-  MeshStyle style = plain_style(kSize);
+  MeshStyle style = plain_style(kShotSize);
   style.samples = 3;
   style.lit = false;
   const ImageRgba8 image = draw(make_square(), make_views(1)[0], style);
-  ASSERT_EQ(image.width_px, kSize);
-  ASSERT_EQ(image.height_px, kSize);
+  ASSERT_EQ(image.width_px, kShotSize);
+  ASSERT_EQ(image.height_px, kShotSize);
   const Rgba8 sky = encoded(style.lighting.sky_color, 0), plain = encoded(style.base_color);
   std::size_t n_sky = 0, n_plain = 0, n_rim = 0;
   for (const Rgba8& p : image.pixels) {
@@ -168,7 +168,7 @@ TEST(MeshRenderer, BackgroundIsTheSkyWithoutAlpha) {
 }
 
 TEST(MeshRenderer, TextureStandsUpright) {
-  MeshStyle style = plain_style(kSize);
+  MeshStyle style = plain_style(kShotSize);
   style.lit = false;
   const ImageRgba8 texture = make_quadrants(64, 32);
   for (const bool flip_v : {false, true}) {
@@ -182,7 +182,7 @@ TEST(MeshRenderer, TextureStandsUpright) {
 }
 
 TEST(MeshRenderer, TextureRepeats) {
-  MeshStyle style = plain_style(kSize);
+  MeshStyle style = plain_style(kShotSize);
   style.lit = false;
   TriMesh square = make_square(2);
   for (glm::vec2& uv : square.texcoords) uv -= glm::vec2(3, 1);  // below 0, too
@@ -199,7 +199,7 @@ TEST(MeshRenderer, TextureRepeats) {
 
 TEST(MeshRenderer, LitTextureIsShaded) {
   const ImageRgba8 texture(4, 4, kGreen);
-  const MeshStyle style = plain_style(kSize);
+  const MeshStyle style = plain_style(kShotSize);
   const ImageRgba8 image = draw(make_square(), front_view(), style, &texture);
   const glm::vec3 base(srgb_decode(10 / 255.f), srgb_decode(180 / 255.f), srgb_decode(30 / 255.f));
   EXPECT_LE(
@@ -208,7 +208,7 @@ TEST(MeshRenderer, LitTextureIsShaded) {
 
 // Thirty texels a pixel: their mean, of light and not of code values.
 TEST(MeshRenderer, FineTexturesAverageInLinearLight) {
-  MeshStyle style = plain_style(kSize);
+  MeshStyle style = plain_style(kShotSize);
   style.lit = false;
   ImageRgba8 texture(256, 256, {0, 0, 0, 255});
   for (int y = 0; y < 256; ++y)
@@ -221,7 +221,7 @@ TEST(MeshRenderer, FineTexturesAverageInLinearLight) {
 }
 
 TEST(MeshRenderer, VertexColoursShowWhereThereIsNoTexture) {
-  MeshStyle style = plain_style(kSize);
+  MeshStyle style = plain_style(kShotSize);
   style.lit = false;
   TriMesh square = make_square();
   square.colors = {{1, 0, 0}, {1, 0, 0}, {0, 0, 1}, {0, 0, 1}};
@@ -236,7 +236,7 @@ TEST(MeshRenderer, VertexColoursShowWhereThereIsNoTexture) {
 }
 
 TEST(MeshRenderer, BacksAreLitAsFrontsThatFaceTheSameWay) {
-  const MeshStyle style = plain_style(kSize);
+  const MeshStyle style = plain_style(kShotSize);
   TriMesh square = make_square();
   const ImageRgba8 front = draw(square, front_view(), style);
   for (Triangle& t : square.triangles) std::swap(t[1], t[2]);
@@ -249,7 +249,7 @@ TEST(MeshRenderer, BacksAreLitAsFrontsThatFaceTheSameWay) {
 
 // The square's own normals lie; two of the three sources do not heed them.
 TEST(MeshRenderer, NormalsComeFromWhereTheyAreAsked) {
-  MeshStyle style = plain_style(kSize);
+  MeshStyle style = plain_style(kShotSize);
   TriMesh square = make_square();
   const glm::vec3 own = glm::normalize(glm::vec3(1, -1, 1));
   square.normals.assign(4, own);
@@ -266,7 +266,7 @@ TEST(MeshRenderer, NormalsComeFromWhereTheyAreAsked) {
 }
 
 TEST(MeshRenderer, FlatAndComputedNormalsDifferOnACoarseSphere) {
-  MeshStyle style = plain_style(kSize);
+  MeshStyle style = plain_style(kShotSize);
   const TriMesh sphere = make_sphere(6);
   style.normals = NormalSource::computed;
   const ImageRgba8 smooth = draw(sphere, front_view(), style);
@@ -278,7 +278,7 @@ TEST(MeshRenderer, FlatAndComputedNormalsDifferOnACoarseSphere) {
 
 // In the row of v = 0.7 that is the square's diagonal, sqrt(2) pixels wide at 45 degrees.
 TEST(MeshRenderer, WireframeIsAPixelWide) {
-  MeshStyle style = plain_style(kSize);
+  MeshStyle style = plain_style(kShotSize);
   style.lit = false;
   style.wireframe = true;
   const Rgba8 plain = encoded(style.base_color), line = encoded(glm::vec3(0.01f));
@@ -286,9 +286,9 @@ TEST(MeshRenderer, WireframeIsAPixelWide) {
     style.samples = samples;
     const ImageRgba8 image = draw(make_square(), front_view(), style);
     double width_px = 0;
-    for (int x = 0; x < kSize; ++x) {
-      const Rgba8& p = image.at(x, static_cast<int>(0.4 * kSize));
-      const bool is_inside = x > 0.25 * kSize && x < 0.75 * kSize;
+    for (int x = 0; x < kShotSize; ++x) {
+      const Rgba8& p = image.at(x, static_cast<int>(0.4 * kShotSize));
+      const bool is_inside = x > 0.25 * kShotSize && x < 0.75 * kShotSize;
       if (is_inside) width_px += double(plain[1] - p[1]) / (plain[1] - line[1]);
     }
     EXPECT_NEAR(width_px, glm::root_two<double>(), 0.6) << samples;
@@ -298,7 +298,7 @@ TEST(MeshRenderer, WireframeIsAPixelWide) {
 
 TEST(MeshRenderer, UpAxisTurnsTheMesh) {
   const TriMesh torus = make_torus(24, 12);  // around z
-  const MeshStyle style = plain_style(kSize);
+  const MeshStyle style = plain_style(kShotSize);
   const Camera view = make_views(5)[1];
   const ImageRgba8 expected = draw(torus, view, style);
   TriMesh turned = torus;  // so that y is up: (x, y, z) -> (x, z, -y)
@@ -313,7 +313,7 @@ TEST(MeshRenderer, SizeAndPlaceDoNotMatterInTheOwnFrame) {
   const TriMesh torus = make_torus(40, 20);
   TriMesh moved = torus;
   for (glm::vec3& p : moved.positions) p = 7.3f * p + glm::vec3(100, -50, 30);
-  MeshStyle style = plain_style(kSize);
+  MeshStyle style = plain_style(kShotSize);
   style.samples = 2;
   style.size_px = 256;  // rounding may move a sample across an edge: 68 dB each
   for (const Camera& view : make_views(4)) {
@@ -328,17 +328,17 @@ TEST(MeshRenderer, AnothersFrameKeepsAMeshInItsPlace) {
   TriMesh cap = whole;  // the lower half
   std::erase_if(cap.triangles, [&](const Triangle& t) { return whole.positions[t[0]].z > 0.05f; });
   const MeshFrame frame = own_frame(whole);
-  const MeshStyle style = plain_style(kSize);
+  const MeshStyle style = plain_style(kShotSize);
   const ImageRgba8 of_whole = draw(whole, front_view(), style);
   const ImageRgba8 of_cap = draw(cap, front_view(), style, nullptr, &frame);
   EXPECT_EQ(draw(whole, front_view(), style, nullptr, &frame).pixels, of_whole.pixels);
-  for (int y = kSize / 2 + 8; y < kSize; ++y)
-    for (int x = 0; x < kSize; ++x) ASSERT_EQ(of_cap.at(x, y), of_whole.at(x, y));
+  for (int y = kShotSize / 2 + 8; y < kShotSize; ++y)
+    for (int x = 0; x < kShotSize; ++x) ASSERT_EQ(of_cap.at(x, y), of_whole.at(x, y));
   EXPECT_NE(draw(cap, front_view(), style).pixels, of_cap.pixels);  // its own box is smaller
 }
 
 TEST(MeshRenderer, SameBytesAgainAndStateIsLeft) {
-  const MeshStyle style = plain_style(kSize);
+  const MeshStyle style = plain_style(kShotSize);
   const TriMesh torus = make_torus(24, 12);
   const MeshRenderer renderer(shared_context().gl(), torus, own_frame(torus), nullptr, style);
   const Camera view = make_views(3)[2];
@@ -353,7 +353,7 @@ TEST(MeshRenderer, SameBytesAgainAndStateIsLeft) {
 
 TEST(MeshRenderer, TextureWithoutCoordinatesIsABug) {
   const ImageRgba8 texture(4, 4, kGreen);
-  EXPECT_THROW(draw(make_sphere(6), front_view(), plain_style(kSize), &texture), BugError);
+  EXPECT_THROW(draw(make_sphere(6), front_view(), plain_style(kShotSize), &texture), BugError);
 }
 
 }  // namespace

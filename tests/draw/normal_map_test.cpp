@@ -13,7 +13,7 @@
 namespace viewcell {
 namespace {
 
-constexpr int kSize = 128;
+constexpr int kReliefSize = 128;
 
 // Texture coordinates linear * (x, z) + offset.
 TriMesh make_square(const glm::mat2& linear, const glm::vec2& offset) {
@@ -24,7 +24,7 @@ TriMesh make_square(const glm::mat2& linear, const glm::vec2& offset) {
 const MeshFrame kFrame{{0, 0, 0}, std::sqrt(2.0), "z"};
 
 ImageRgba8 draw(const TriMesh& mesh, const ImageRgba8* normal_map,
-                const MeshStyle& style = plain_style(kSize), const IndexMap* map = nullptr,
+                const MeshStyle& style = plain_style(kReliefSize), const IndexMap* map = nullptr,
                 const ImageRgba8* texture = nullptr) {
   return MeshRenderer(shared_context().gl(), mesh, kFrame, texture, style, map, normal_map)
       .draw(front_view());
@@ -33,12 +33,12 @@ ImageRgba8 draw(const TriMesh& mesh, const ImageRgba8* normal_map,
 Rgba8 at_xz(const ImageRgba8& image, double x, double z) {
   const glm::dvec4 clip =
       clip_from_world(front_view()) * glm::dvec4(x / std::sqrt(2.0), 0, z / std::sqrt(2.0), 1);
-  return image.at(static_cast<int>((0.5 + 0.5 * clip.x / clip.w) * kSize),
-                  static_cast<int>((0.5 - 0.5 * clip.y / clip.w) * kSize));
+  return image.at(static_cast<int>((0.5 + 0.5 * clip.x / clip.w) * kReliefSize),
+                  static_cast<int>((0.5 - 0.5 * clip.y / clip.w) * kReliefSize));
 }
 
 void expect_lit(const Rgba8& seen, const glm::dvec3& normal, const char* what) {
-  const MeshStyle style = plain_style(kSize);
+  const MeshStyle style = plain_style(kReliefSize);
   const glm::vec3 c = shade(style.lighting, style.base_color, glm::vec3(glm::normalize(normal)));
   for (int k = 0; k < 3; ++k)
     EXPECT_NEAR(seen[static_cast<std::size_t>(k)], srgb8_from_linear(c[k]), 1) << what << " " << k;
@@ -69,7 +69,7 @@ TEST(NormalMap, IsRelativeToWhereTheTextureRuns) {
     n_mirrored += is_mirrored;
     for (const auto y : {NormalMapY::up, NormalMapY::down})
       for (const bool flip_v : {false, true}) {
-        MeshStyle style = plain_style(kSize);
+        MeshStyle style = plain_style(kReliefSize);
         style.normal_map_y = y;
         style.flip_v = flip_v;
         const glm::dvec3 n = decode_normal(kTilted, y);
@@ -89,7 +89,7 @@ TEST(NormalMap, FollowsTheVertexNormals) {
   expect_lit(at_xz(draw(square, &map), 0.3, 0.2),
              n.x * along + n.y * glm::dvec3(0, 0, 1) + n.z * glm::dvec3(square.normals[0]),
              "tilted normals");
-  MeshStyle style = plain_style(kSize);
+  MeshStyle style = plain_style(kReliefSize);
   style.normals = NormalSource::flat;
   expect_lit(at_xz(draw(square, &map, style), 0.3, 0.2), {n.x, -n.z, n.y}, "flat normals");
 }
@@ -108,7 +108,7 @@ TEST(NormalMap, IsFilteredAsNumbers) {
   const Rgba8 seen = at_xz(image, 0.3, 0);
   const Rgba8 a = at_xz(image, 0.3, 0.5), b = at_xz(image, 0.3, -0.5);
   EXPECT_LT(std::min(a[0], b[0]), seen[0]);
-  const MeshStyle style = plain_style(kSize);
+  const MeshStyle style = plain_style(kReliefSize);
   const glm::vec3 expected =
       shade(style.lighting, style.base_color, glm::vec3(glm::normalize(lit(middle))));
   EXPECT_NEAR(seen[0], srgb8_from_linear(expected.x), 8);  // within half a pixel of the middle
@@ -124,8 +124,10 @@ TEST(NormalMap, IsLookedUpThroughAnIndexingMap) {
   const ImageRgba8 white(2, 2, {255, 255, 255, 255});
   const glm::dvec3 n = decode_normal(kTilted);
   for (const ImageRgba8* texture : {static_cast<const ImageRgba8*>(nullptr), &white}) {
-    const Rgba8 tilted = at_xz(draw(square, &map, plain_style(kSize), &right, texture), -0.5, 0.3);
-    const Rgba8 straight = at_xz(draw(square, &map, plain_style(kSize), &left, texture), 0.5, 0.3);
+    const Rgba8 tilted =
+        at_xz(draw(square, &map, plain_style(kReliefSize), &right, texture), -0.5, 0.3);
+    const Rgba8 straight =
+        at_xz(draw(square, &map, plain_style(kReliefSize), &left, texture), 0.5, 0.3);
     if (!texture) expect_lit(tilted, {n.x, -n.z, n.y}, "the right half, seen on the left");
     if (!texture) expect_lit(straight, {0.004, -1, 0.004}, "the left half, seen on the right");
     EXPECT_GT(std::abs(int{tilted[0]} - int{straight[0]}), 10);
@@ -135,7 +137,7 @@ TEST(NormalMap, IsLookedUpThroughAnIndexingMap) {
 TEST(NormalMap, IsNotSeenUnlitAndWantsCoordinates) {
   TriMesh square = make_square(glm::mat2(0.5f), glm::vec2(0.5f));
   const ImageRgba8 map(4, 4, kTilted);
-  MeshStyle style = plain_style(kSize);
+  MeshStyle style = plain_style(kReliefSize);
   style.lit = false;
   EXPECT_EQ(draw(square, &map, style).pixels, draw(square, nullptr, style).pixels);
   square.texcoords.clear();

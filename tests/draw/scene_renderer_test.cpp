@@ -13,7 +13,7 @@
 namespace viewcell {
 namespace {
 
-constexpr int kSize = 192;
+constexpr int kFrameSize = 192;
 
 struct Stage {
   explicit Stage(Scene scene_in, bool with_lod = false)
@@ -21,7 +21,7 @@ struct Stage {
         levels(build_scene_levels(scene, with_lod)),
         plan_scene(make_plan_scene(scene, levels)),
         renderer(shared_context().gl(), scene, levels),
-        target(shared_context().gl(), kSize, kSize) {}
+        target(shared_context().gl(), kFrameSize, kFrameSize) {}
   ImageRgba8 draw(const Camera& camera, const FramePlan& plan) const {
     return draw_frame(renderer, target, clip_from_world(camera), plan.draws);
   }
@@ -81,10 +81,10 @@ TEST(SceneRenderer, SkyAboveGroundBelow) {
   Camera camera;
   camera.eye = {0, 0, 10};
   const ImageRgba8 image = stage.draw(camera, {});
-  for (int x = 0; x < kSize; ++x) {
-    for (int y = 0; y < kSize / 2 - 1; ++y)
+  for (int x = 0; x < kFrameSize; ++x) {
+    for (int y = 0; y < kFrameSize / 2 - 1; ++y)
       ASSERT_EQ(image.at(x, y), encoded(stage.scene.lighting.sky_color, 0)) << x << "," << y;
-    for (int y = kSize / 2 + 1; y < kSize; ++y)
+    for (int y = kFrameSize / 2 + 1; y < kFrameSize; ++y)
       ASSERT_EQ(image.at(x, y), encoded(stage.scene.lighting.ground_color, 0)) << x << "," << y;
   }
 }
@@ -111,10 +111,11 @@ TEST(SceneRenderer, WallCoversItsPixelsInItsColour) {
   const ImageRgba8 image = stage.draw(make_level_camera(5), plan_geometry(stage.plan_scene));
   const glm::vec3 lit =
       shade(stage.scene.lighting, stage.scene.materials[0].base_color, {-1, 0, 0});
-  const double half_px = 0.5 * kSize / std::tan(glm::radians(30.0)) * 5 / 20;
-  for (int y = 0; y < kSize; ++y)
-    for (int x = 0; x < kSize; ++x) {
-      const double dx = std::abs(x + 0.5 - kSize / 2.0), dy = std::abs(y + 0.5 - kSize / 2.0);
+  const double half_px = 0.5 * kFrameSize / std::tan(glm::radians(30.0)) * 5 / 20;
+  for (int y = 0; y < kFrameSize; ++y)
+    for (int x = 0; x < kFrameSize; ++x) {
+      const double dx = std::abs(x + 0.5 - kFrameSize / 2.0),
+                   dy = std::abs(y + 0.5 - kFrameSize / 2.0);
       const bool inside = dx < half_px && dy < half_px;
       ASSERT_EQ(image.at(x, y)[3], inside ? 255 : 0) << x << "," << y;
       if (inside) {
@@ -130,11 +131,11 @@ TEST(SceneRenderer, BacksShowOnlyWhenDoubleSidedInBothEngines) {
       const Stage stage(make_wall_scene(back ? glm::pi<double>() : 0, double_sided));
       const Camera camera = make_level_camera(5);
       const ImageRgba8 raster = stage.draw(camera, plan_geometry(stage.plan_scene));
-      ImageRgba8 cast(kSize, kSize);
+      ImageRgba8 cast(kFrameSize, kFrameSize);
       RayCaster(stage.scene).draw(camera, cast);
-      const Rgba8 middle = raster.at(kSize / 2, kSize / 2);
+      const Rgba8 middle = raster.at(kFrameSize / 2, kFrameSize / 2);
       EXPECT_EQ(middle[3], back && !double_sided ? 0 : 255);
-      EXPECT_LE(most_difference(middle, cast.at(kSize / 2, kSize / 2)), 1);
+      EXPECT_LE(most_difference(middle, cast.at(kFrameSize / 2, kFrameSize / 2)), 1);
       // A back is lit as the front that faces the same way.
       if (middle[3] == 255) {
         const glm::vec3 lit =
@@ -151,10 +152,10 @@ TEST(SceneRenderer, ObjectsUnderTheGroundShowInBothEngines) {
   Camera camera = make_level_camera(5);
   camera.forward = glm::normalize(glm::dvec3(20, 0, -30));
   const ImageRgba8 raster = stage.draw(camera, plan_geometry(stage.plan_scene));
-  ImageRgba8 cast(kSize, kSize);
+  ImageRgba8 cast(kFrameSize, kFrameSize);
   RayCaster(stage.scene).draw(camera, cast);
-  EXPECT_EQ(raster.at(kSize / 2, kSize / 2)[3], 255);
-  EXPECT_EQ(cast.at(kSize / 2, kSize / 2)[3], 255);
+  EXPECT_EQ(raster.at(kFrameSize / 2, kFrameSize / 2)[3], 255);
+  EXPECT_EQ(cast.at(kFrameSize / 2, kFrameSize / 2)[3], 255);
 }
 
 TEST(SceneRenderer, FrustumEqualsGeometryPixelForPixel) {
@@ -180,7 +181,7 @@ TEST(SceneRenderer, LevelsLookLikeTheOriginal) {
   for (int k = 0; k < 6; ++k) {
     const Camera camera = random_camera(random);
     const FramePlan frustum = plan_frustum(stage.plan_scene, camera);
-    const FramePlan lod = plan_lod(stage.plan_scene, camera, kSize);
+    const FramePlan lod = plan_lod(stage.plan_scene, camera, kFrameSize);
     n_original += frustum.n_triangles;
     n_levels += lod.n_triangles;
     EXPECT_GT(luminance_psnr_db(stage.draw(camera, frustum), stage.draw(camera, lod)), 30);
@@ -197,7 +198,7 @@ TEST(SceneRenderer, RaysSeeWhatTheRasteriserDraws) {
     SCOPED_TRACE(testing::Message() << "view " << k);
     const Camera camera = random_camera(random);
     const ImageRgba8 raster = stage.draw(camera, plan_frustum(stage.plan_scene, camera));
-    ImageRgba8 cast(kSize, kSize);
+    ImageRgba8 cast(kFrameSize, kFrameSize);
     caster.draw(camera, cast);
     std::size_t n_different = 0;
     for (std::size_t i = 0; i < raster.pixels.size(); ++i)
@@ -223,12 +224,12 @@ TEST(SceneRenderer, ShiftByWholePixelsMovesThePicture) {
   const Camera camera = random_camera(random);
   const FramePlan plan = plan_geometry(stage.plan_scene);
   const ImageRgba8 still = stage.draw(camera, plan);
-  const ImageRgba8 moved =
-      draw_frame(stage.renderer, stage.target,
-                 shift_pixels(clip_from_world(camera), {3, -2}, kSize, kSize), plan.draws);
+  const ImageRgba8 moved = draw_frame(
+      stage.renderer, stage.target,
+      shift_pixels(clip_from_world(camera), {3, -2}, kFrameSize, kFrameSize), plan.draws);
   std::size_t n_different = 0;
-  for (int y = 2; y < kSize; ++y)
-    for (int x = 0; x + 3 < kSize; ++x)
+  for (int y = 2; y < kFrameSize; ++y)
+    for (int x = 0; x + 3 < kFrameSize; ++x)
       n_different += most_difference(still.at(x, y), moved.at(x + 3, y - 2)) > 2;
   EXPECT_LE(n_different, 20u);
 }
@@ -253,7 +254,8 @@ TEST(SceneRenderer, StyleReplacesMaterialColours) {
   stage.renderer.draw_objects(clip_from_world(camera), plan_geometry(stage.plan_scene).draws,
                               style);
   const glm::vec3 lit = shade(stage.scene.lighting, *style.base_color, {-1, 0, 0});
-  EXPECT_LE(most_difference(stage.target.read_rgba8().at(kSize / 2, kSize / 2), encoded(lit, 255)),
+  EXPECT_LE(most_difference(stage.target.read_rgba8().at(kFrameSize / 2, kFrameSize / 2),
+                            encoded(lit, 255)),
             1);
 }
 

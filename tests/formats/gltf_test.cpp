@@ -10,7 +10,7 @@
 namespace viewcell {
 namespace {
 
-TriMesh parse(const std::string& json) {
+TriMesh parse_json(const std::string& json) {
   return parse_gltf(make_glb(json, cube_buffer()), "m.glb");
 }
 
@@ -24,7 +24,7 @@ double volume(const TriMesh& mesh) {
 
 TEST(Gltf, NodesAreFlattened) {
   // The child moves by 10 along x, its parent scales by 2 and turns x to y.
-  const TriMesh mesh = parse(cube_gltf_json(
+  const TriMesh mesh = parse_json(cube_gltf_json(
       R"([{"children": [1], "scale": [2, 2, 2], "rotation": [0, 0, 0.7071067811865476, 0.7071067811865476]},
           {"mesh": 0, "translation": [10, 0, 0]}, {"mesh": 0}])"));
   ASSERT_EQ(mesh.positions.size(), 16u);
@@ -36,15 +36,15 @@ TEST(Gltf, NodesAreFlattened) {
 
 TEST(Gltf, TheDefaultSceneIsRead) {
   const std::string more = R"("scene": 1, "scenes": [{"nodes": [0]}, {"nodes": [1]}], )";
-  const TriMesh mesh =
-      parse(cube_gltf_json(R"([{"mesh": 0}, {"mesh": 0, "translation": [5, 0, 0]}])", "", more));
+  const TriMesh mesh = parse_json(
+      cube_gltf_json(R"([{"mesh": 0}, {"mesh": 0, "translation": [5, 0, 0]}])", "", more));
   ASSERT_EQ(mesh.positions.size(), 8u);
   EXPECT_EQ(mesh.positions[0], glm::vec3(5, 0, 0));
 }
 
 TEST(Gltf, MirroredMeshesStillFaceOutward) {
-  EXPECT_NEAR(volume(parse(cube_gltf_json(R"([{"mesh": 0, "scale": [-2, 1, 1]}])"))), 2, 1e-6);
-  const TriMesh mesh = parse(cube_gltf_json(
+  EXPECT_NEAR(volume(parse_json(cube_gltf_json(R"([{"mesh": 0, "scale": [-2, 1, 1]}])"))), 2, 1e-6);
+  const TriMesh mesh = parse_json(cube_gltf_json(
       R"([{"mesh": 0, "matrix": [1,0,0,0, 0,0,1,0, 0,1,0,0, 7,0,0,1]}])"));  // swaps y and z
   EXPECT_NEAR(volume(mesh), 1, 1e-6);
   EXPECT_EQ(mesh.positions[3], glm::vec3(7, 0, 1));
@@ -54,11 +54,12 @@ TEST(Gltf, BaseColoursAndMaterials) {
   std::string json = cube_gltf_json(
       R"([{"mesh": 0}])", "",
       R"("materials": [{"name": "gold", "pbrMetallicRoughness": {"baseColorFactor": [1, 0.5, 0, 1]}}], )");
-  const TriMesh mesh = parse(replaced(json, R"("indices": 1)", R"("indices": 1, "material": 0)"));
+  const TriMesh mesh =
+      parse_json(replaced(json, R"("indices": 1)", R"("indices": 1, "material": 0)"));
   EXPECT_EQ(mesh.colors.at(7), glm::vec3(1, 0.5, 0));
   EXPECT_EQ(mesh.material_names, std::vector<std::string>{"gold"});
   EXPECT_EQ(mesh.materials, std::vector<std::int32_t>(12, 0));
-  EXPECT_TRUE(parse(cube_gltf_json()).colors.empty());
+  EXPECT_TRUE(parse_json(cube_gltf_json()).colors.empty());
 }
 
 // The positions stand in for every attribute.
@@ -69,7 +70,7 @@ TEST(Gltf, AttributesArrive) {
                   R"("type": "SCALAR"},
       {"bufferView": 1, "componentType": 5121, "normalized": true, "count": 8, "type": "VEC2"})");
   json = replaced(json, R"([{"mesh": 0}])", R"([{"mesh": 0, "scale": [1, 2, 4]}])");
-  const TriMesh mesh = parse(json);
+  const TriMesh mesh = parse_json(json);
   EXPECT_EQ(mesh.colors.at(6), glm::vec3(1));
   const glm::vec3 turned = glm::normalize(glm::vec3(4, 2, 1));  // (1, 1, 1) under that scale
   EXPECT_NEAR(glm::distance(mesh.normals.at(6), turned), 0, 1e-6);
@@ -127,7 +128,7 @@ TEST(Gltf, BuffersBesideTheFile) {
 TEST(Gltf, AccessorsAreBounded) {
   const auto bad = [](const std::string& from, const std::string& to, const std::string& part) {
     SCOPED_TRACE(to);
-    EXPECT_INPUT_ERROR(parse(replaced(cube_gltf_json(), from, to)), part);
+    EXPECT_INPUT_ERROR(parse_json(replaced(cube_gltf_json(), from, to)), part);
   };
   bad(R"("count": 8)", R"("count": 9)", "accessors[0]: is past its buffer view's end");
   bad(R"("count": 8)", R"("count": -1)", "accessors[0].count");
@@ -154,7 +155,7 @@ TEST(Gltf, AccessorsAreBounded) {
 TEST(Gltf, FilesAndNodesAreChecked) {
   const auto bad = [](const std::string& from, const std::string& to, const std::string& part) {
     SCOPED_TRACE(to);
-    EXPECT_INPUT_ERROR(parse(replaced(cube_gltf_json(), from, to)), part);
+    EXPECT_INPUT_ERROR(parse_json(replaced(cube_gltf_json(), from, to)), part);
   };
   bad(R"("2.0")", R"("1.0")", "only version 2");
   bad(R"("asset")", R"("extensionsRequired": ["KHR_draco_mesh_compression"], "asset")",
@@ -164,11 +165,12 @@ TEST(Gltf, FilesAndNodesAreChecked) {
   bad(R"([{"mesh": 0}])", R"([{"mesh": 0, "scale": [1, 1]}])", "nodes[0].scale");
   bad(R"([{"mesh": 0}])", R"([{"mesh": 1}])", "meshes: has no element 1");
   const std::string cycle = R"([{"children": [1]}, {"mesh": 0, "children": [0]}])";
-  EXPECT_TRUE(parse(cube_gltf_json(cycle)).triangles.empty());  // nobody is a root
-  EXPECT_INPUT_ERROR(parse(cube_gltf_json(cycle, "", R"("scenes": [{"nodes": [0]}], )")), "a tree");
+  EXPECT_TRUE(parse_json(cube_gltf_json(cycle)).triangles.empty());  // nobody is a root
+  EXPECT_INPUT_ERROR(parse_json(cube_gltf_json(cycle, "", R"("scenes": [{"nodes": [0]}], )")),
+                     "a tree");
   EXPECT_INPUT_ERROR(parse_gltf(cube_glb().substr(0, 200), "m.glb"), "ends too early");
   const std::string deep = std::string(200000, '[') + std::string(200000, ']');
-  EXPECT_INPUT_ERROR(parse(deep), "nested deeper");
+  EXPECT_INPUT_ERROR(parse_json(deep), "nested deeper");
 }
 
 TEST(Gltf, DamagedJsonNeverCrashes) {
@@ -178,7 +180,7 @@ TEST(Gltf, DamagedJsonNeverCrashes) {
       replaced(cube_gltf_json(R"([{"children": [1], "scale": [2, 2, 2]}, {"mesh": 0}])", "", more),
                R"("POSITION": 0)", R"("POSITION": 0, "NORMAL": 0, "COLOR_0": 0)");
   read_damaged_copies(json, 4000, kSeed,
-                      [](const std::string& damaged) { check_mesh(parse(damaged), "m.glb"); });
+                      [](const std::string& damaged) { check_mesh(parse_json(damaged), "m.glb"); });
 }
 
 }  // namespace

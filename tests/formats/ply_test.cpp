@@ -20,7 +20,7 @@ const std::string kSquare =  // 0-1-2 and 0-2-3
     "property list uchar uint vertex_indices\nproperty int object\nend_header\n"
     "0 0 0 1\n1 0 0 2\n1 1 0 3\n0 1 0 127\n3 0 1 2 -5\n3 0 2 3 6\n";
 
-PlyDocument parse(const std::string& bytes) {
+PlyDocument parse_document(const std::string& bytes) {
   return parse_ply(bytes, "m.ply");
 }
 
@@ -119,7 +119,7 @@ void expect_equal(const PlyDocument& a, const PlyDocument& b) {
 }
 
 TEST(Ply, ReadsTextByHand) {
-  const PlyDocument ply = parse(kSquare);
+  const PlyDocument ply = parse_document(kSquare);
   EXPECT_EQ(ply.comments, std::vector<std::string>{"made by hand"});
   EXPECT_EQ(ply.vec3s("vertex", "x", "y", "z")[2], glm::vec3(1, 1, 0));
   EXPECT_EQ(ply.uints("vertex", "views", 127), (std::vector<std::uint32_t>{1, 2, 3, 127}));
@@ -138,8 +138,8 @@ TEST(Ply, LineBreaksAndOtherTypeNames) {
   text = replaced(text, "comment made by hand", "obj_info a b c\ncomment\ncomment  two  blanks");
   std::string windows;
   for (const char c : text) windows += c == '\n' ? std::string("\r\n") : std::string(1, c);
-  const PlyDocument ply = parse(windows);
-  expect_equal(ply, parse(kSquare));
+  const PlyDocument ply = parse_document(windows);
+  expect_equal(ply, parse_document(kSquare));
   EXPECT_EQ(ply.comments, (std::vector<std::string>{"", " two  blanks"}));
 }
 
@@ -149,16 +149,17 @@ TEST(Ply, WritesThenReadsTheSameBits) {
     Random random(seed);
     const PlyDocument document = random_document(random);
     const std::string bytes = format_ply(document);
-    expect_equal(parse(bytes), document);
-    expect_equal(parse(big_endian(document)), document);
-    EXPECT_EQ(format_ply(parse(bytes)), bytes);
+    expect_equal(parse_document(bytes), document);
+    expect_equal(parse_document(big_endian(document)), document);
+    EXPECT_EQ(format_ply(parse_document(bytes)), bytes);
   }
 }
 
 TEST(Ply, CommentsStayOnTheirLine) {
   PlyDocument document;
   document.comments = {"one\nend_header\r\n"};
-  EXPECT_EQ(parse(format_ply(document)).comments, std::vector<std::string>{"one end_header"});
+  EXPECT_EQ(parse_document(format_ply(document)).comments,
+            std::vector<std::string>{"one end_header"});
 }
 
 TEST(Ply, BuildersCheckLengths) {
@@ -174,7 +175,7 @@ TEST(Ply, BuildersCheckLengths) {
 }
 
 TEST(Ply, GettersNameWhatIsWrong) {
-  const PlyDocument ply = parse(kSquare);
+  const PlyDocument ply = parse_document(kSquare);
   EXPECT_INPUT_ERROR(ply.element("edge"), "m.ply: header: has no element 'edge'");
   EXPECT_INPUT_ERROR(ply.column("face", "views"), "element 'face' has no property 'views'");
   EXPECT_INPUT_ERROR(ply.floats("face", "vertex_indices"), "is a list");
@@ -182,7 +183,7 @@ TEST(Ply, GettersNameWhatIsWrong) {
   EXPECT_INPUT_ERROR(ply.uints("vertex", "views", 126), "vertex 3: property 'views': 127");
   EXPECT_INPUT_ERROR(ply.uints("face", "object"), "face 0: property 'object': -5");
   EXPECT_INPUT_ERROR(ply.triangles("face", "vertex_indices", 3), "face 1");
-  const PlyDocument quad = parse(replaced(kSquare, "3 0 2 3 6", "4 0 1 2 3 6"));
+  const PlyDocument quad = parse_document(replaced(kSquare, "3 0 2 3 6", "4 0 1 2 3 6"));
   EXPECT_INPUT_ERROR(quad.triangles("face", "vertex_indices", 4), "face 1: is not a triangle");
 }
 
@@ -193,20 +194,21 @@ TEST(Ply, NonFiniteNumbersAreNamed) {
     add_column(element, "x", std::vector<float>{0, bad, 0});
     add_column(element, "y", std::vector<double>{0, 0, 1e300});
     document.elements = {element};
-    const PlyDocument ply = parse(format_ply(document));
+    const PlyDocument ply = parse_document(format_ply(document));
     EXPECT_INPUT_ERROR(ply.floats("vertex", "x"), "vertex 1: property 'x' is not a finite number");
     EXPECT_INPUT_ERROR(ply.floats("vertex", "y"), "vertex 2");
   }
-  EXPECT_INPUT_ERROR(parse(replaced(kSquare, "\n1 0 0 2", "\n1 nan 0 2")), "line 14: vertex 1");
+  EXPECT_INPUT_ERROR(parse_document(replaced(kSquare, "\n1 0 0 2", "\n1 nan 0 2")),
+                     "line 14: vertex 1");
 }
 
 TEST(Ply, MalformedHeadersAreRefused) {
   const auto bad = [](const std::string& from, const std::string& to, const std::string& part) {
     SCOPED_TRACE(to);
-    EXPECT_INPUT_ERROR(parse(replaced(kSquare, from, to)), part);
+    EXPECT_INPUT_ERROR(parse_document(replaced(kSquare, from, to)), part);
   };
-  EXPECT_INPUT_ERROR(parse(""), "end_header");
-  EXPECT_INPUT_ERROR(parse("OFF\n"), "is not a PLY file");
+  EXPECT_INPUT_ERROR(parse_document(""), "end_header");
+  EXPECT_INPUT_ERROR(parse_document("OFF\n"), "is not a PLY file");
   bad("end_header\n", "", "line 12");
   bad("ascii", "binary_middle_endian", "line 2: expected 'format");
   bad("vertex 4", "vertex -4", "line 4: the count of element 'vertex'");
@@ -222,16 +224,17 @@ TEST(Ply, MalformedHeadersAreRefused) {
   bad("element vertex 4\n", "", "before the first element");
   bad("property uchar views", "what is this", "expected comment");
   bad("element vertex", "element void 1000000000000000000\nelement vertex", "is empty");
-  EXPECT_INPUT_ERROR(parse("ply\nformat ascii 1.0\n" + std::string(1 << 21, 'x')), "too long");
+  EXPECT_INPUT_ERROR(parse_document("ply\nformat ascii 1.0\n" + std::string(1 << 21, 'x')),
+                     "too long");
   std::string many = "ply\nformat ascii 1.0\n";
   for (int i = 0; i < 100000; ++i) many += "comment\n";
-  EXPECT_INPUT_ERROR(parse(many), "too many lines");
+  EXPECT_INPUT_ERROR(parse_document(many), "too many lines");
 }
 
 TEST(Ply, MalformedRowsAreRefused) {
   const auto bad = [](const std::string& from, const std::string& to, const std::string& part) {
     SCOPED_TRACE(to);
-    EXPECT_INPUT_ERROR(parse(replaced(kSquare, from, to)), part);
+    EXPECT_INPUT_ERROR(parse_document(replaced(kSquare, from, to)), part);
   };
   bad("0 1 0 127", "0 1 0 256", "vertex 3: '256' is not within 0 to 255");
   bad("0 1 0 127", "0 1 0 1.5", "not a whole number");
@@ -250,14 +253,14 @@ TEST(Ply, BinaryRowsAreBounded) {
   const std::string bytes = format_ply(document);
   const std::size_t body = bytes.find("end_header\n") + 11;
   for (std::size_t n = 0; n < bytes.size(); ++n)
-    EXPECT_THROW(parse(bytes.substr(0, n)), InputError) << n;
+    EXPECT_THROW(parse_document(bytes.substr(0, n)), InputError) << n;
   for (const std::int32_t length : {-1, 4, 1 << 30, std::numeric_limits<std::int32_t>::min()}) {
     std::string damaged = bytes;
     std::memcpy(damaged.data() + body + 16, &length, 4);
-    EXPECT_INPUT_ERROR(parse(damaged), "face 1");
+    EXPECT_INPUT_ERROR(parse_document(damaged), "face 1");
   }
-  EXPECT_INPUT_ERROR(parse(bytes + "x"), "goes on");
-  EXPECT_NO_THROW(parse(bytes + "\n"));
+  EXPECT_INPUT_ERROR(parse_document(bytes + "x"), "goes on");
+  EXPECT_NO_THROW(parse_document(bytes + "\n"));
 }
 
 TEST(Ply, DamagedFilesNeverCrash) {
@@ -266,7 +269,7 @@ TEST(Ply, DamagedFilesNeverCrash) {
   const PlyDocument document = random_document(random);
   for (const std::string& bytes : {kSquare, format_ply(document), big_endian(document)})
     read_damaged_copies(bytes, 3000, kSeed, [](const std::string& damaged) {
-      const PlyDocument ply = parse(damaged);
+      const PlyDocument ply = parse_document(damaged);
       if (ply.has("face", "vertex_indices")) ply.triangles("face", "vertex_indices", 4);
     });
 }

@@ -67,7 +67,7 @@ void expect_same_header(const CapturePartHeader& a, const CapturePartHeader& b) 
 }
 
 // The error's text; empty when all of the file reads.
-std::string error_of_reading(const fs::path& path) {
+std::string error_of_capture(const fs::path& path) {
   try {
     CaptureFile file(path);
     for (std::size_t i = 0; i < file.parts().size(); ++i) file.read_part(i);
@@ -196,7 +196,7 @@ TEST(CaptureFileTest, CorruptFilesReadOrAreRefused) {
       bad[random.below(static_cast<std::uint32_t>(reach))] = static_cast<char>(random.below(256));
     }
     put_bytes(folder / "bad.exr", bad);
-    error_of_reading(folder / "bad.exr");
+    error_of_capture(folder / "bad.exr");
   }
 }
 
@@ -211,7 +211,7 @@ TEST(CaptureFileTest, AbsurdWindowsAndPartsAreRefusedBeforeAnythingIsAllocated) 
     std::string bad = bytes;
     bad.replace(at, 16, reinterpret_cast<const char*>(box.data()), 16);
     put_bytes(folder / "bad.exr", bad);
-    return error_of_reading(folder / "bad.exr");
+    return error_of_capture(folder / "bad.exr");
   };
   EXPECT_NE(with_window({0, 0, 2000000000, 7}).find("reaches 2000000000"), std::string::npos);
   EXPECT_NE(with_window({0, 0, 16384, 7}).find("16385 x 8 pixels"), std::string::npos);
@@ -239,17 +239,17 @@ TEST(CaptureFileTest, NumbersThatAreNotFiniteAreRefused) {
   const float bad = std::numeric_limits<float>::infinity();
   bytes.replace(bytes.find(head) + head.size() + 4, 4, reinterpret_cast<const char*>(&bad), 4);
   write_file(folder / "m.exr", bytes);
-  EXPECT_NE(error_of_reading(folder / "m.exr").find("worldToNDC is not finite"), std::string::npos);
+  EXPECT_NE(error_of_capture(folder / "m.exr").find("worldToNDC is not finite"), std::string::npos);
 }
 
 TEST(CaptureFileTest, ForeignPixelsAreCheckedToo) {
   const TemporaryFolder folder;
   const fs::path file = folder / "f.exr";
   write_foreign_exr(file, {"R", "G", "B", "A", "Z"}, 0.5f);
-  EXPECT_EQ(error_of_reading(file), "");
+  EXPECT_EQ(error_of_capture(file), "");
   for (const float bad : {std::numeric_limits<float>::quiet_NaN(), INFINITY, 1e9f}) {
     write_foreign_exr(file, {"R", "G", "B", "A", "Z"}, bad);  // 1e9 is infinite as a half
-    EXPECT_NE(error_of_reading(file).find("part 0 (object 0): holds a number that is not finite"),
+    EXPECT_NE(error_of_capture(file).find("part 0 (object 0): holds a number that is not finite"),
               std::string::npos);
   }
 }
@@ -259,19 +259,19 @@ TEST(CaptureFileTest, MissingOrWrongChannelsAreRefused) {
   const fs::path file = folder / "f.exr";
   const std::string expected = "part 0: its channels are not R, G, B, A as half and Z as float";
   write_foreign_exr(file, {"R", "G", "B", "A"}, 0.5f);
-  EXPECT_NE(error_of_reading(file).find(expected), std::string::npos);
+  EXPECT_NE(error_of_capture(file).find(expected), std::string::npos);
   write_foreign_exr(file, {"R", "G", "B", "Z"}, 0.5f);
-  EXPECT_NE(error_of_reading(file).find(expected), std::string::npos);
+  EXPECT_NE(error_of_capture(file).find(expected), std::string::npos);
   write_foreign_exr(file, {"R", "G", "B", "A", "Z"}, 0.5f, true);
-  EXPECT_NE(error_of_reading(file).find(expected), std::string::npos);
+  EXPECT_NE(error_of_capture(file).find(expected), std::string::npos);
 }
 
 TEST(CaptureFileTest, OtherFilesAreRefusedByName) {
   const TemporaryFolder folder;
-  EXPECT_NE(error_of_reading(folder / "none.exr").find("none.exr"), std::string::npos);
-  EXPECT_NE(error_of_reading(folder.path()).find("cannot open"), std::string::npos);
+  EXPECT_NE(error_of_capture(folder / "none.exr").find("none.exr"), std::string::npos);
+  EXPECT_NE(error_of_capture(folder.path()).find("cannot open"), std::string::npos);
   write_file(folder / "text.exr", "v 0 0 0\n");
-  EXPECT_NE(error_of_reading(folder / "text.exr").find("not an EXR"), std::string::npos);
+  EXPECT_NE(error_of_capture(folder / "text.exr").find("not an EXR"), std::string::npos);
 }
 
 TEST(CaptureFileTest, WrongPartsAreOurBug) {

@@ -32,9 +32,9 @@ bool same_bits(const IndexMap& a, const IndexMap& b) {
 
 // A picture of any kind, by OpenImageIO.
 template <typename Sample>
-void write_samples(const fs::path& file, int n_channels, OIIO::TypeDesc type,
-                   const std::vector<Sample>& samples,
-                   const std::vector<std::string>& names = {"texcoord.u", "texcoord.v"}) {
+void write_map_samples(const fs::path& file, int n_channels, OIIO::TypeDesc type,
+                       const std::vector<Sample>& samples,
+                       const std::vector<std::string>& names = {"texcoord.u", "texcoord.v"}) {
   const int n = static_cast<int>(samples.size()) / n_channels;
   OIIO::ImageSpec spec(n, 1, n_channels, type);
   if (names.size() == static_cast<std::size_t>(n_channels)) spec.channelnames = names;
@@ -47,7 +47,7 @@ void write_samples(const fs::path& file, int n_channels, OIIO::TypeDesc type,
 }
 
 // The error's text; empty when the file reads.
-std::string error_of_reading(const fs::path& file) {
+std::string error_of_map(const fs::path& file) {
   try {
     read_index_map(file);
   } catch (const InputError& error) {
@@ -102,7 +102,7 @@ TEST(IndexMapFile, TiffClampsAndRoundsToTheNearest) {
 
 TEST(IndexMapFile, EightBitsAreReadToo) {
   const TemporaryFolder folder;
-  write_samples<std::uint8_t>(folder / "a.tif", 2, OIIO::TypeUInt8, {0, 255, 51, 128});
+  write_map_samples<std::uint8_t>(folder / "a.tif", 2, OIIO::TypeUInt8, {0, 255, 51, 128});
   const IndexMap map = read_index_map(folder / "a.tif");
   EXPECT_EQ(map.pixels[0], glm::vec2(0, 1));
   EXPECT_EQ(map.pixels[1], glm::vec2(0.2f, static_cast<float>(128 / 255.0)));
@@ -127,7 +127,7 @@ TEST(IndexMapFile, SameBytesTwiceAndNoDate) {
 TEST(IndexMapFile, OtherPicturesAreRefused) {
   const TemporaryFolder folder;
   const auto refused = [&](const std::string& name, const std::string& part) {
-    const std::string error = error_of_reading(folder / name);
+    const std::string error = error_of_map(folder / name);
     EXPECT_NE(error.find(part), std::string::npos) << error;
     EXPECT_NE(error.find(name), std::string::npos) << error;
   };
@@ -137,18 +137,18 @@ TEST(IndexMapFile, OtherPicturesAreRefused) {
   refused("text.tif", "is not a PNG");
   refused("missing.exr", "cannot open");
   const std::vector<float> six(6, 0.5f), four(4, 0.5f);
-  write_samples(folder / "rgb.tif", 3, OIIO::TypeUInt16, six);
+  write_map_samples(folder / "rgb.tif", 3, OIIO::TypeUInt16, six);
   refused("rgb.tif", "has channels R, G, B of uint16, not two");
-  write_samples(folder / "gray.tif", 1, OIIO::TypeUInt16, six);
+  write_map_samples(folder / "gray.tif", 1, OIIO::TypeUInt16, six);
   refused("gray.tif", "not two");
-  write_samples(folder / "float.tif", 2, OIIO::TypeFloat, six);
+  write_map_samples(folder / "float.tif", 2, OIIO::TypeFloat, six);
   refused("float.tif", "of float, not two");
-  write_samples(folder / "half.exr", 2, OIIO::TypeHalf, six);
+  write_map_samples(folder / "half.exr", 2, OIIO::TypeHalf, six);
   refused("half.exr", "of half, not two");
-  write_samples(folder / "rg.exr", 2, OIIO::TypeFloat, four, {"R", "G"});
+  write_map_samples(folder / "rg.exr", 2, OIIO::TypeFloat, four, {"R", "G"});
   refused("rg.exr", "has channels R, G of float");
-  write_samples(folder / "uvw.exr", 3, OIIO::TypeFloat, six,
-                {"texcoord.u", "texcoord.v", "texcoord.w"});
+  write_map_samples(folder / "uvw.exr", 3, OIIO::TypeFloat, six,
+                    {"texcoord.u", "texcoord.v", "texcoord.w"});
   refused("uvw.exr", "not two");
 }
 
@@ -156,11 +156,11 @@ TEST(IndexMapFile, NumbersThatAreNotFiniteAreNamed) {
   const TemporaryFolder folder;
   for (const float bad :
        {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
-    write_samples<float>(folder / "a.exr", 2, OIIO::TypeFloat, {0, 0, 0, bad, 0, 0});
-    EXPECT_NE(error_of_reading(folder / "a.exr").find("texel 1, 0: holds a number that is not"),
+    write_map_samples<float>(folder / "a.exr", 2, OIIO::TypeFloat, {0, 0, 0, bad, 0, 0});
+    EXPECT_NE(error_of_map(folder / "a.exr").find("texel 1, 0: holds a number that is not"),
               std::string::npos);
-    write_samples<float>(folder / "a.exr", 2, OIIO::TypeFloat, {0, 0, 0, 0, bad, 0});
-    EXPECT_NE(error_of_reading(folder / "a.exr").find("texel 2, 0: holds a number that is not"),
+    write_map_samples<float>(folder / "a.exr", 2, OIIO::TypeFloat, {0, 0, 0, 0, bad, 0});
+    EXPECT_NE(error_of_map(folder / "a.exr").find("texel 2, 0: holds a number that is not"),
               std::string::npos);
     for (const int k : {0, 1}) {
       IndexMap map(2, 2);
@@ -169,8 +169,8 @@ TEST(IndexMapFile, NumbersThatAreNotFiniteAreNamed) {
     }
   }
   // What lies between two of these is no number.
-  write_samples<float>(folder / "a.exr", 2, OIIO::TypeFloat, {0, 0, 0, 3e38f, 0, -3e38f});
-  EXPECT_NE(error_of_reading(folder / "a.exr").find("texel 1, 0: holds a number that is not"),
+  write_map_samples<float>(folder / "a.exr", 2, OIIO::TypeFloat, {0, 0, 0, 3e38f, 0, -3e38f});
+  EXPECT_NE(error_of_map(folder / "a.exr").find("texel 1, 0: holds a number that is not"),
             std::string::npos);
   EXPECT_FALSE(fs::exists(folder / "b.exr"));
 }
@@ -194,9 +194,8 @@ TEST(IndexMapFile, PromisesThatTheFileCannotHoldAreRefused) {
   for (std::size_t at = 10; at + 12 <= tiff.size() && n_changed < 2; at += 12, ++n_changed)
     tiff.replace(at + 8, 2, std::string("\x00\x40", 2));
   put_bytes(folder / "a.tif", tiff);
-  EXPECT_NE(error_of_reading(folder / "a.tif").find("bytes of pixels in a file of"),
-            std::string::npos)
-      << error_of_reading(folder / "a.tif");
+  EXPECT_NE(error_of_map(folder / "a.tif").find("bytes of pixels in a file of"), std::string::npos)
+      << error_of_map(folder / "a.tif");
 }
 
 // A byte of LZW stands for not quite 4096: a header that promises a little more is refused for it,
@@ -211,7 +210,7 @@ TEST(IndexMapFile, PromisesAreHeldAgainstTheFile) {
     const auto height = static_cast<std::uint16_t>(share * 4096 * double(tiff.size()) / 4 / kWidth);
     std::memcpy(bytes.data() + 10 + 12 + 8, &height, 2);  // the second tag, 257
     put_bytes(folder / "a.tif", bytes);
-    const std::string error = error_of_reading(folder / "a.tif");
+    const std::string error = error_of_map(folder / "a.tif");
     EXPECT_EQ(error.find("bytes of pixels in a file of") != std::string::npos, share > 1) << error;
   }
 }
@@ -228,7 +227,7 @@ TEST(IndexMapFile, ChannelsOfTwoTypesAreRefused) {
   ASSERT_TRUE(output && output->open(file, spec));
   const std::vector<float> samples{0, 0.25f, 0.5f, 1};
   ASSERT_TRUE(output->write_image(OIIO::TypeFloat, samples.data()) && output->close());
-  EXPECT_NE(error_of_reading(file).find("not two of an indexing map"), std::string::npos);
+  EXPECT_NE(error_of_map(file).find("not two of an indexing map"), std::string::npos);
 }
 
 // Cut anywhere a map is refused, or reads as before (cut in what follows its pixels). Damaged, it
@@ -259,7 +258,7 @@ TEST(IndexMapFile, CutAndDamagedFilesAreRefused) {
         bad[random.below(static_cast<std::uint32_t>(reach))] = static_cast<char>(random.below(256));
       }
       put_bytes(folder / "bad", bad);
-      error_of_reading(folder / "bad");
+      error_of_map(folder / "bad");
     }
   }
 }

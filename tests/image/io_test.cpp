@@ -44,7 +44,7 @@ long peak_memory_kib() {
 }
 
 // The error's text; empty when the file reads.
-std::string error_of_reading(const fs::path& file) {
+std::string error_of_picture(const fs::path& file) {
   try {
     read_image_rgba8(file);
   } catch (const InputError& error) {
@@ -145,7 +145,7 @@ TEST(ImageRead, ExrChannelsGoByName) {
   write_samples(folder / "y.exr", 1, 1, 1, OIIO::TypeHalf, std::vector<float>{0.5f}, {"Y"});
   EXPECT_EQ(read_image_rgba8(folder / "y.exr").pixels[0], (Rgba8{188, 188, 188, 255}));
   write_samples(folder / "q.exr", 1, 1, 3, OIIO::TypeHalf, samples, {"P", "Q", "S"});
-  EXPECT_NE(error_of_reading(folder / "q.exr").find("no channels R, G, B nor Y"),
+  EXPECT_NE(error_of_picture(folder / "q.exr").find("no channels R, G, B nor Y"),
             std::string::npos);
 }
 
@@ -171,10 +171,10 @@ TEST(ImageRead, TheNameDoesNotMatterTheBytesDo) {
   write_png(folder / "a.jpg", image);
   EXPECT_EQ(read_image_rgba8(folder / "a.jpg").pixels, image.pixels);
   write_file(folder / "b.png", "GIF89a and so on, which is not read");
-  EXPECT_NE(error_of_reading(folder / "b.png").find("is not a PNG"), std::string::npos);
+  EXPECT_NE(error_of_picture(folder / "b.png").find("is not a PNG"), std::string::npos);
   write_file(folder / "c.png", "");
-  EXPECT_NE(error_of_reading(folder / "c.png").find("is not a PNG"), std::string::npos);
-  EXPECT_NE(error_of_reading(folder / "missing.png").find("missing.png"), std::string::npos);
+  EXPECT_NE(error_of_picture(folder / "c.png").find("is not a PNG"), std::string::npos);
+  EXPECT_NE(error_of_picture(folder / "missing.png").find("missing.png"), std::string::npos);
 }
 
 // A header may promise what no machine holds: it is refused before anything is allocated.
@@ -201,7 +201,7 @@ TEST(ImageRead, AbsurdSizesAreRefusedQuicklyAndCheaply) {
   const auto start = std::chrono::steady_clock::now();
   for (const std::string& bytes : {png, exr, jpeg, webp}) {
     write_file(folder / "x.png", bytes);
-    const std::string error = error_of_reading(folder / "x.png");
+    const std::string error = error_of_picture(folder / "x.png");
     EXPECT_NE(error.find("60000 x 60000 pixels"), std::string::npos) << error;
     EXPECT_NE(error.find("x.png"), std::string::npos);
   }
@@ -274,7 +274,7 @@ TEST(ImageRead, CorruptFilesReadOrAreRefused) {
         bad[random.below(static_cast<std::uint32_t>(reach))] = static_cast<char>(random.below(256));
       }
       put_bytes(folder / "bad", bad);
-      error_of_reading(folder / "bad");
+      error_of_picture(folder / "bad");
     }
   }
 }

@@ -4,6 +4,7 @@
 #include "base/file.h"
 #include "common/provenance.h"
 #include "common/stopwatch.h"
+#include "formats/mesh_file.h"
 #include "meshdist/arguments.h"
 #include "report/table.h"
 
