@@ -11,8 +11,8 @@ constexpr double kBandStep = 12;  // between the points of the band that becomes
 constexpr int kBandRounds = 70;   // of smoothing; each point then depends on some 100 units around
 constexpr double kEdge = 60;      // the route keeps this far from the area's edge
 constexpr double kWantedClearance = 13;  // clearance that the band is pushed to
-// A stop is passed between kNear and kFar from its footprint's circle; a large one nearer.
-constexpr double kNear = 16, kFar = 70, kFarLarge = 32;
+// A stop is passed between kNearPass and kFarPass from its footprint's circle; a large one nearer.
+constexpr double kNearPass = 16, kFarPass = 70, kFarPassLarge = 32;
 
 bool is_large(const SceneObject& object) {
   return index(object.mesh) < 2;
@@ -57,8 +57,8 @@ std::vector<glm::dvec2> pass_beside(const Ground& ground, const std::vector<std:
     };
     const glm::dvec2 along = at(i + 1) - at(i > 0 ? i - 1 : 0);
     const glm::dvec2 side = glm::dvec2(-along.y, along.x) / std::max(glm::length(along), 1e-9);
-    const double far = is_large(ground.objects[stops[i]]) ? kFarLarge : kFar;
-    const double off = ground.radii[stops[i]] + random.uniform(kNear, far);
+    const double far = is_large(ground.objects[stops[i]]) ? kFarPassLarge : kFarPass;
+    const double off = ground.radii[stops[i]] + random.uniform(kNearPass, far);
     points.push_back(at(i) + (random.below(2) == 0 ? off : -off) * side);
   }
   return points;
