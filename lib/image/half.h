@@ -1,7 +1,11 @@
-// 16-bit floats (IEEE binary16) as bits.
+// 16-bit floats (IEEE binary16) as bits. The conversions are Imath's: one instruction where the
+// processor has it, the same bits elsewhere.
 #pragma once
 
-#include <bit>
+#define IMATH_HALF_NO_LOOKUP_TABLE  // a table would be one more library to link
+#include <Imath/half.h>
+
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -9,35 +13,15 @@
 
 namespace viewcell {
 
-inline constexpr std::uint16_t kLargestHalf = 0x7bff;  // 65504
-
 /// The nearest half, ties to even. What is too large, infinite too, becomes 65504 with its sign;
 /// NaN becomes 0: no capture holds a value that is not finite.
 inline std::uint16_t half_from_float(float x) {
-  const std::uint32_t bits = std::bit_cast<std::uint32_t>(x);
-  const auto sign = static_cast<std::uint16_t>(bits >> 16 & 0x8000);
-  const std::uint32_t magnitude = bits & 0x7fffffff;
-  if (magnitude > 0x7f800000) return 0;
-  if (magnitude >= 0x477fe000) return sign | kLargestHalf;
-  if (magnitude >= 0x38800000) {  // normal: drop 13 bits, rounding; a carry runs into the exponent
-    const std::uint32_t rounded = magnitude + 0xfff + (magnitude >> 13 & 1);
-    return static_cast<std::uint16_t>(sign | (rounded - 0x38000000) >> 13);
-  }
-  // Subnormal: 0.5 has the unit of the least half, so the float addition does the rounding.
-  const std::uint32_t sum = std::bit_cast<std::uint32_t>(std::bit_cast<float>(magnitude) + 0.5f);
-  return static_cast<std::uint16_t>(sign | (sum - std::bit_cast<std::uint32_t>(0.5f)));
+  return x == x ? imath_float_to_half(std::clamp(x, -65504.f, 65504.f)) : std::uint16_t{0};
 }
 
 /// Exact.
 inline float float_from_half(std::uint16_t half) {
-  const std::uint32_t sign = (half & 0x8000u) << 16, exponent = half >> 10 & 0x1f;
-  const std::uint32_t mantissa = half & 0x3ffu;
-  if (exponent == 0) {
-    const float magnitude = static_cast<float>(mantissa) * 0x1p-24f;
-    return sign ? -magnitude : magnitude;
-  }
-  const std::uint32_t wide = exponent == 31 ? 255 : exponent + 112;
-  return std::bit_cast<float>(sign | wide << 23 | mantissa << 13);
+  return imath_half_to_float(half);
 }
 
 inline bool is_finite_half(std::uint16_t half) {
