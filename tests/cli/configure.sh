@@ -47,4 +47,13 @@ refused 'by /no/such/g++, which is not there'
 built "$top" "$compiler" "$version"
 printf '#!/bin/sh\nexit 0\n' >other && chmod +x other
 refused "not by $PWD/other" CXX="$PWD/other"
+
+# Without CMake: what brings it.
+mkdir programs
+for p in bash sed cat grep dirname readlink; do ln -s "$(type -P "$p")" programs/; done
+rm -rf b
+got=0
+PATH=$PWD/programs "$(type -P bash)" "$top/scripts/configure" b >"$log/out" 2>"$log/err" || got=$?
+[ $got -eq 3 ] && grep -q 'no cmake; scripts/install-deps' "$log/err" || { cat "$log/err" >&2; fail "without CMake: $got"; }
+[ ! -e b ] || fail "makes a folder without CMake"
 echo "configure.sh: all well"
