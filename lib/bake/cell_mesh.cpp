@@ -7,6 +7,7 @@
 #include "base/parallel.h"
 #include "capture/view.h"
 #include "cells/self_occluding.h"
+#include "mesh/used_vertices.h"
 #include "pm/simplify.h"
 #include "visibility/regional.h"
 
@@ -92,36 +93,27 @@ ViewMetricOptions make_metric_options(const BakeScene& bake, CellId cell, Repres
 // What is left after collapsing and culling, renumbered.
 CellMesh gather(const ViewVertices& all, const std::vector<std::uint32_t>& source_vertex,
                 const std::vector<Triangle>& triangles, const std::vector<bool>& is_culled) {
-  constexpr std::uint32_t kUnused = 0xffffffffu;
-  std::vector<std::uint32_t> place(all.positions.size(), kUnused);
+  std::vector<Triangle> left;
   CellMesh out;
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     if (is_culled[t]) continue;
-    Triangle renumbered;
+    left.push_back(triangles[t]);
     unsigned views = 0x7f;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::uint32_t v = triangles[t][k];
-      views &= all.views[v];
-      if (place[v] == kUnused) {
-        place[v] = static_cast<std::uint32_t>(out.source_vertex.size());
-        out.source_vertex.push_back(source_vertex[v]);
-        out.vertices.positions.push_back(all.positions[v]);
-        out.vertices.normals.push_back(all.normals[v]);
-        out.vertices.weights.push_back(all.weights[v]);
-        out.vertices.views.push_back(all.views[v]);
-      }
-      renumbered[k] = place[v];
-    }
-    out.triangles.push_back(renumbered);
+    for (const std::uint32_t v : triangles[t]) views &= all.views[v];
     out.views.push_back(static_cast<std::uint8_t>(views));
   }
+  const UsedVertices used = find_used_vertices(left, all.positions.size(), VertexOrder::first_use);
+  out.triangles = used.renumber(left);
+  out.source_vertex = used.pick(source_vertex);
+  out.vertices = {used.pick(all.positions), used.pick(all.normals), used.pick(all.weights),
+                  used.pick(all.views)};
   return out;
 }
 
 std::vector<StartLevel> build_start_levels(const TriMesh& mesh) {
   std::vector<StartLevel> out;
   for (const Level& level : build_levels(mesh)) {
-    SimplifyResult compacted = compact(mesh, level.triangles);
+    CompactMesh compacted = compact(mesh, level.triangles);
     out.push_back({std::move(compacted.mesh), std::move(compacted.source_vertex), level.error});
   }
   return out;

@@ -1,31 +1,20 @@
 #include "draw/mesh_levels.h"
 
-#include <algorithm>
-
 #include "base/error.h"
 #include "base/parallel.h"
+#include "mesh/used_vertices.h"
 
 namespace viewcell {
 namespace {
 
 // The triangles of a level with the vertices that they use, numbered by first use.
 TriMesh extract_level(const TriMesh& mesh, const std::vector<Triangle>& triangles) {
-  const std::vector<std::uint32_t> place = make_fetch_order(triangles, mesh.positions.size());
-  std::size_t n_used = 0;
+  const UsedVertices used =
+      find_used_vertices(triangles, mesh.positions.size(), VertexOrder::first_use);
   TriMesh out;
-  out.triangles.reserve(triangles.size());
-  for (const Triangle& t : triangles) {
-    out.triangles.push_back({place[t[0]], place[t[1]], place[t[2]]});
-    for (const std::uint32_t v : out.triangles.back())
-      n_used = std::max(n_used, static_cast<std::size_t>(v) + 1);
-  }
-  out.positions.resize(n_used);
-  out.normals.resize(n_used);
-  for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
-    if (place[v] >= n_used) continue;
-    out.positions[place[v]] = mesh.positions[v];
-    out.normals[place[v]] = mesh.normals[v];
-  }
+  out.positions = used.pick(mesh.positions);
+  out.normals = used.pick(mesh.normals);
+  out.triangles = used.renumber(triangles);
   return out;
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "mesh/used_vertices.h"
 
 namespace viewcell {
 namespace {
@@ -48,15 +49,11 @@ std::vector<Triangle> optimize_index_order(const std::vector<Triangle>& triangle
 
 std::vector<std::uint32_t> make_fetch_order(const std::vector<Triangle>& triangles,
                                             std::size_t n_vertices) {
-  constexpr std::uint32_t kUnused = 0xffffffffu;
-  std::vector<std::uint32_t> new_ids(n_vertices, kUnused);
-  std::uint32_t n = 0;
-  for (const Triangle& t : triangles)
-    for (const std::uint32_t v : t)
-      if (new_ids[v] == kUnused) new_ids[v] = n++;
-  for (std::uint32_t& id : new_ids)
-    if (id == kUnused) id = n++;
-  return new_ids;
+  UsedVertices used = find_used_vertices(triangles, n_vertices, VertexOrder::first_use);
+  auto n = static_cast<std::uint32_t>(used.size());
+  for (std::uint32_t& id : used.place)
+    if (id == kUnusedVertex) id = n++;
+  return std::move(used.place);
 }
 
 std::vector<DetailLevel> build_meshopt_levels(const TriMesh& mesh, const DetailOptions& options) {

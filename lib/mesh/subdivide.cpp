@@ -13,6 +13,7 @@
 #include "base/error.h"
 #include "mesh/edges.h"
 #include "mesh/topology.h"
+#include "mesh/used_vertices.h"
 
 namespace viewcell {
 namespace {
@@ -112,24 +113,18 @@ struct Welded {
 Welded weld_positions(const TriMesh& mesh) {
   Welded out;
   const std::vector<std::uint32_t> first = match_positions(mesh);
-  std::vector<std::uint32_t> place(mesh.positions.size(), 0);  // of used vertices, from 1
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const auto [a, b, c] = mesh.triangles[t];
     const Triangle welded{first[a], first[b], first[c]};
     if (welded[0] == welded[1] || welded[1] == welded[2] || welded[2] == welded[0]) continue;
     out.layer.triangles.push_back(welded);
     out.source_triangle.push_back(t);
-    for (const std::uint32_t v : welded) place[v] = 1;
   }
-  for (std::uint32_t v = 0; v < first.size(); ++v) {
-    out.n_welded += first[v] != v;
-    if (place[v] == 0) continue;
-    place[v] = static_cast<std::uint32_t>(out.source_vertex.size());
-    out.source_vertex.push_back(v);
-    out.layer.values.emplace_back(mesh.positions[v]);
-  }
-  for (Triangle& t : out.layer.triangles)
-    for (std::uint32_t& v : t) v = place[v];
+  for (std::uint32_t v = 0; v < first.size(); ++v) out.n_welded += first[v] != v;
+  UsedVertices used = find_used_vertices(out.layer.triangles, first.size());
+  out.layer.triangles = used.renumber(out.layer.triangles);
+  for (const std::uint32_t v : used.source) out.layer.values.emplace_back(mesh.positions[v]);
+  out.source_vertex = std::move(used.source);
   return out;
 }
 

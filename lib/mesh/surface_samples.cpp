@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "base/random.h"
+#include "mesh/used_vertices.h"
 
 namespace viewcell {
 namespace {
@@ -15,16 +16,6 @@ constexpr double kEdgeSamplesPerFaceSample = 3;
 // modulo 1 are the R2 sequence. Source: M. Roberts, The unreasonable effectiveness of quasirandom
 // sequences, 2018.
 constexpr std::array<std::uint64_t, 2> kStep{0xc13fa9a902a6328fu, 0x91e10da5c79e7b1du};
-
-std::vector<std::uint32_t> used_vertices(const TriMesh& mesh) {
-  std::vector<char> is_used(mesh.positions.size(), 0);
-  for (const Triangle& t : mesh.triangles)
-    for (const std::uint32_t v : t) is_used[v] = 1;
-  std::vector<std::uint32_t> used;
-  for (std::uint32_t v = 0; v < is_used.size(); ++v)
-    if (is_used[v]) used.push_back(v);
-  return used;
-}
 
 std::vector<std::array<std::uint32_t, 2>> distinct_edges(const TriMesh& mesh) {
   std::vector<std::array<std::uint32_t, 2>> edges;
@@ -88,7 +79,7 @@ SurfaceSamples plan_surface_samples(const TriMesh& mesh, std::size_t n_face_samp
   VIEWCELL_CHECK(n_face_samples > 0);
   SurfaceSamples samples;
   samples.n_face_samples = n_face_samples;
-  samples.vertices = used_vertices(mesh);
+  samples.vertices = find_used_vertices(mesh.triangles, mesh.positions.size()).source;
   samples.edges = distinct_edges(mesh);
   samples.area_before.reserve(mesh.triangles.size() + 1);
   samples.area_before.push_back(0);

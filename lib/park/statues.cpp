@@ -6,6 +6,7 @@
 
 #include "base/disjoint_sets.h"
 #include "base/error.h"
+#include "mesh/used_vertices.h"
 #include "park/figures.h"
 #include "park/polygonise.h"
 #include "park/relief.h"

@@ -1,11 +1,23 @@
 #include "pm/progressive_mesh.h"
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 #include "base/error.h"
+#include "mesh/used_vertices.h"
 
 namespace viewcell {
+namespace {
+
+UsedVertices take_all_vertices(std::size_t n) {
+  UsedVertices out{std::vector<std::uint32_t>(n), {}};
+  std::iota(out.source.begin(), out.source.end(), 0u);
+  out.place = out.source;
+  return out;
+}
+
+}  // namespace
 
 void shift_texcoords(ProgressiveRecord& record, const glm::vec2& by) {
   for (glm::vec2& uv : record.texcoords) uv += by;
@@ -97,33 +109,27 @@ std::uint32_t ProgressiveMesh::source_of(std::uint32_t wedge) const {
 TriMesh ProgressiveMesh::extract(std::vector<std::uint32_t>* source_vertex) const {
   const TriMesh& from = record_.attributes;
   const bool is_input = level_ == n_splits();
-  std::vector<std::uint32_t> place(from.positions.size(), is_input ? 1 : 0);
-  for (std::size_t f = 0; f < record_.faces.size(); ++f)
-    if (is_alive_[f])
-      for (const std::uint32_t wedge : record_.faces[f]) place[source_of(wedge)] = 1;
   TriMesh out;
-  std::vector<std::uint32_t> sources;
-  for (std::uint32_t v = 0; v < place.size(); ++v) {
-    if (place[v] == 0) continue;
-    place[v] = static_cast<std::uint32_t>(sources.size());
-    sources.push_back(v);
-    out.positions.push_back(from.positions[record_.is_full_edge() ? record_.vertex_of[v] : v]);
-    if (!from.normals.empty()) out.normals.push_back(from.normals[v]);
-    if (!from.colors.empty()) out.colors.push_back(from.colors[v]);
-  }
   out.material_names = from.material_names;
   for (std::size_t f = 0; f < record_.faces.size(); ++f) {
     if (!is_alive_[f]) continue;
     const Triangle& face = record_.faces[f];
-    out.triangles.push_back(
-        {place[source_of(face[0])], place[source_of(face[1])], place[source_of(face[2])]});
+    out.triangles.push_back({source_of(face[0]), source_of(face[1]), source_of(face[2])});
     if (!record_.texcoords.empty())
       for (const std::uint32_t wedge : face) out.texcoords.push_back(record_.texcoords[wedge]);
     if (!from.materials.empty()) out.materials.push_back(from.materials[f]);
   }
-  if (record_.is_full_edge() && !is_input && !out.normals.empty())
+  UsedVertices used = is_input ? take_all_vertices(from.positions.size())
+                               : find_used_vertices(out.triangles, from.positions.size());
+  out.triangles = used.renumber(out.triangles);
+  for (const std::uint32_t v : used.source)
+    out.positions.push_back(from.positions[record_.is_full_edge() ? record_.vertex_of[v] : v]);
+  out.colors = used.pick(from.colors);
+  if (record_.is_full_edge() && !is_input && !from.normals.empty())
     out.normals = make_vertex_normals(out);
-  if (source_vertex) *source_vertex = std::move(sources);
+  else
+    out.normals = used.pick(from.normals);
+  if (source_vertex) *source_vertex = std::move(used.source);
   return out;
 }
 

@@ -1,30 +1,12 @@
 #include "pm/simplify.h"
 
 #include <algorithm>
+#include <utility>
 
+#include "mesh/used_vertices.h"
 #include "pm/qem.h"
 
 namespace viewcell {
-
-SimplifyResult compact(const TriMesh& mesh, const std::vector<Triangle>& triangles) {
-  constexpr std::uint32_t kUnused = 0xffffffffu;
-  std::vector<std::uint32_t> place(mesh.positions.size(), kUnused);
-  for (const Triangle& t : triangles)
-    for (const std::uint32_t v : t) place[v] = 0;
-  SimplifyResult result;
-  for (std::uint32_t v = 0; v < place.size(); ++v) {
-    if (place[v] == kUnused) continue;
-    place[v] = static_cast<std::uint32_t>(result.source_vertex.size());
-    result.source_vertex.push_back(v);
-    result.mesh.positions.push_back(mesh.positions[v]);
-    if (!mesh.normals.empty()) result.mesh.normals.push_back(mesh.normals[v]);
-    if (!mesh.colors.empty()) result.mesh.colors.push_back(mesh.colors[v]);
-  }
-  result.mesh.triangles.reserve(triangles.size());
-  for (const Triangle& t : triangles)
-    result.mesh.triangles.push_back({place[t[0]], place[t[1]], place[t[2]]});
-  return result;
-}
 
 SimplifyResult simplify(const TriMesh& mesh, const SimplifyOptions& options) {
   CollapseMesh work(mesh.positions, mesh.triangles);
@@ -32,10 +14,8 @@ SimplifyResult simplify(const TriMesh& mesh, const SimplifyOptions& options) {
   CollapseLoop loop(work, metric);
   const CollapseCounts counts =
       loop.run({.target_triangles = options.target_triangles, .max_cost = options.max_error});
-  SimplifyResult result = compact(mesh, work.triangles());
-  result.error = counts.last_cost;
-  result.counts = counts;
-  return result;
+  CompactMesh left = compact(mesh, work.triangles());
+  return {std::move(left.mesh), std::move(left.source_vertex), counts.last_cost, counts};
 }
 
 std::vector<Level> build_levels(const TriMesh& mesh, std::size_t min_triangles) {

@@ -33,7 +33,4 @@ struct Level {
 /// The input, then about half the triangles of the level before each time, down to min_triangles.
 std::vector<Level> build_levels(const TriMesh& mesh, std::size_t min_triangles = 64);
 
-/// The vertices that triangles use, renumbered in their old order; attributes follow.
-SimplifyResult compact(const TriMesh& mesh, const std::vector<Triangle>& triangles);
-
 }  // namespace viewcell

@@ -13,6 +13,7 @@
 #include "base/error.h"
 #include "mesh/edges.h"
 #include "mesh/topology.h"
+#include "mesh/used_vertices.h"
 
 namespace viewcell {
 namespace {
@@ -215,20 +216,11 @@ TriMesh weld(const TriMesh& mesh, const std::vector<std::uint32_t>& first) {
 Patch gather(const TriMesh& mesh, std::vector<std::uint32_t> faces) {
   Patch out;
   std::sort(faces.begin(), faces.end());
-  std::vector<std::uint32_t> place(mesh.positions.size(), 0);
-  for (const std::uint32_t face : faces)
-    for (const std::uint32_t v : mesh.triangles[face]) place[v] = 1;
-  for (std::uint32_t v = 0; v < place.size(); ++v) {
-    if (!place[v]) continue;
-    place[v] = static_cast<std::uint32_t>(out.source_vertex.size());
-    out.source_vertex.push_back(v);
-    out.mesh.positions.push_back(mesh.positions[v]);
-    out.mesh.normals.push_back(mesh.normals[v]);
-  }
-  for (const std::uint32_t face : faces) {
-    const Triangle& t = mesh.triangles[face];
-    out.mesh.triangles.push_back({place[t[0]], place[t[1]], place[t[2]]});
-  }
+  std::vector<Triangle> triangles;
+  for (const std::uint32_t face : faces) triangles.push_back(mesh.triangles[face]);
+  CompactMesh disk = compact(mesh, triangles);
+  out.mesh = std::move(disk.mesh);
+  out.source_vertex = std::move(disk.source_vertex);
   out.source_triangle = std::move(faces);
   return out;
 }

@@ -4,6 +4,7 @@
 
 #include <cstring>
 
+#include "mesh/used_vertices.h"
 #include "pm/shapes.h"
 
 namespace viewcell {
@@ -85,13 +86,6 @@ TEST(Simplify, DegenerateAndNonManifoldInputIsTaken) {
     EXPECT_TRUE(t[0] != t[1] && t[1] != t[2] && t[2] != t[0]);
     for (const std::uint32_t v : t) EXPECT_LT(v, result.mesh.positions.size());
   }
-}
-
-TEST(Compact, KeepsUsedVerticesInTheirOrder) {
-  const TriMesh grid = make_flat_grid(2);
-  const SimplifyResult result = compact(grid, {{8, 7, 4}, {4, 7, 1}});
-  EXPECT_EQ(result.source_vertex, (std::vector<std::uint32_t>{1, 4, 7, 8}));
-  EXPECT_EQ(result.mesh.triangles, (std::vector<Triangle>{{3, 2, 1}, {1, 2, 0}}));
 }
 
 // [Ericson, Real-Time Collision Detection 5.1.5], by projections and edges.

@@ -1,0 +1,44 @@
+#include "mesh/used_vertices.h"
+
+namespace viewcell {
+
+std::vector<Triangle> UsedVertices::renumber(std::span<const Triangle> triangles) const {
+  std::vector<Triangle> out;
+  out.reserve(triangles.size());
+  for (const Triangle& t : triangles) out.push_back(renumber(t));
+  return out;
+}
+
+UsedVertices find_used_vertices(std::span<const Triangle> triangles, std::size_t n_vertices,
+                                VertexOrder order) {
+  UsedVertices out;
+  out.place.assign(n_vertices, kUnusedVertex);
+  const auto take = [&](std::uint32_t v) {
+    out.place[v] = static_cast<std::uint32_t>(out.source.size());
+    out.source.push_back(v);
+  };
+  for (const Triangle& t : triangles)
+    for (const std::uint32_t v : t) {
+      if (out.place[v] != kUnusedVertex) continue;
+      if (order == VertexOrder::first_use)
+        take(v);
+      else
+        out.place[v] = 0;
+    }
+  for (std::uint32_t v = 0; order == VertexOrder::old && v < n_vertices; ++v)
+    if (out.place[v] != kUnusedVertex) take(v);
+  return out;
+}
+
+CompactMesh compact(const TriMesh& mesh, std::span<const Triangle> triangles) {
+  UsedVertices used = find_used_vertices(triangles, mesh.positions.size());
+  CompactMesh out;
+  out.mesh.positions = used.pick(mesh.positions);
+  out.mesh.normals = used.pick(mesh.normals);
+  out.mesh.colors = used.pick(mesh.colors);
+  out.mesh.triangles = used.renumber(triangles);
+  out.source_vertex = std::move(used.source);
+  return out;
+}
+
+}  // namespace viewcell

@@ -1,0 +1,50 @@
+// The vertices that triangles use, numbered without gaps.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "mesh/mesh.h"
+
+namespace viewcell {
+
+/// Of the new numbers: as the old ones, or as triangle after triangle first uses them.
+enum class VertexOrder { old, first_use };
+
+inline constexpr std::uint32_t kUnusedVertex = 0xffffffffu;
+
+struct UsedVertices {
+  std::vector<std::uint32_t> source;  ///< new number -> old
+  std::vector<std::uint32_t> place;   ///< old number -> new, or kUnusedVertex
+
+  std::size_t size() const { return source.size(); }
+  Triangle renumber(const Triangle& t) const { return {place[t[0]], place[t[1]], place[t[2]]}; }
+  std::vector<Triangle> renumber(std::span<const Triangle> triangles) const;
+  /// The used ones' values, in their new order; of an attribute that is not there, none.
+  template <typename Value>
+  std::vector<Value> pick(const std::vector<Value>& values) const;
+};
+
+/// Of n_vertices, those that triangles use. O(vertices + triangles).
+UsedVertices find_used_vertices(std::span<const Triangle> triangles, std::size_t n_vertices,
+                                VertexOrder order = VertexOrder::old);
+
+struct CompactMesh {
+  TriMesh mesh;                              ///< positions, and normals and colours where given
+  std::vector<std::uint32_t> source_vertex;  ///< of each vertex, its number in the input
+};
+
+/// Triangles over a mesh's vertices as a mesh of the vertices that they use, in their old order.
+CompactMesh compact(const TriMesh& mesh, std::span<const Triangle> triangles);
+
+template <typename Value>
+std::vector<Value> UsedVertices::pick(const std::vector<Value>& values) const {
+  std::vector<Value> out;
+  if (values.empty()) return out;
+  out.reserve(source.size());
+  for (const std::uint32_t v : source) out.push_back(values[v]);
+  return out;
+}
+
+}  // namespace viewcell
