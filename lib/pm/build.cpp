@@ -44,13 +44,9 @@ CollapseCounts collapse_all(CollapseMesh& mesh, Metric& metric, Recorder& record
                             CollapseBound* guard, ChartGuard* charts, float scale,
                             const BuildOptions& options, const Progress& progress) {
   constexpr std::size_t kSlices = 100;
-  RecordedMetric<Metric> recorded{mesh,
-                                  metric,
-                                  recorder,
-                                  guard,
-                                  options.error_bound * scale,
-                                  options.refuse_folds || needs_texture(options.metric),
-                                  charts};
+  RecordedMetric<Metric> recorded{
+      mesh,  metric, recorder, guard, options.error_bound * scale, texture_needs(options).no_folds,
+      charts};
   CollapseLoop loop(mesh, recorded);
   const std::size_t start = mesh.n_triangles();
   const std::size_t span = start - std::min(start, std::max<std::size_t>(options.target_faces, 1));
@@ -124,16 +120,13 @@ void check_options(const TriMesh& mesh, const BuildOptions& options) {
                      "has no texture coordinates, so no charts that could be kept apart");
   if (options.metric == MetricKind::lt && options.placement == Placement::half)
     throw UsageError("metric lt places vertices anew: it needs --placement full");
-  if (options.metric == MetricKind::mapping && options.placement == Placement::full) {
-    if (!options.total_error)
-      throw UsageError("metric mapping with --placement full is --error total only");
-    return;
-  }
-  if (!needs_texture(options.metric)) return;
+  const bool is_full = options.placement == Placement::full;
+  if (options.metric == MetricKind::mapping && is_full && !options.total_error)
+    throw UsageError("metric mapping with --placement full is --error total only");
   const std::string metric = std::string("metric ") + metric_name(options.metric);
-  if (options.placement == Placement::full && options.metric == MetricKind::aps)
+  if (options.metric == MetricKind::aps && is_full)
     throw UsageError(metric + " is for half-edge collapses: it needs --placement half");
-  if (mesh.texcoords.empty())
+  if (texture_needs(options).coordinates && mesh.texcoords.empty())
     throw InputError(
         options.name, "",
         "has no texture coordinates, which " + metric + " needs; uvpatch makes some for a patch" +
@@ -155,8 +148,14 @@ const char* placement_name(Placement placement) {
   return kPlacementNames[static_cast<std::size_t>(placement)];
 }
 
-bool needs_texture(MetricKind metric) {
-  return metric == MetricKind::qem5 || metric == MetricKind::aps || metric == MetricKind::mapping;
+// Full-edge collapses under mapping match points by nearness on the surface, and keep to charts
+// only where there are some.
+TextureNeeds texture_needs(const BuildOptions& options) {
+  const MetricKind metric = options.metric;
+  const bool measures_texture =
+      metric == MetricKind::qem5 || metric == MetricKind::aps || metric == MetricKind::mapping;
+  const bool does_without = metric == MetricKind::mapping && options.placement == Placement::full;
+  return {measures_texture && !does_without, measures_texture || options.refuse_folds};
 }
 
 BuildResult build_progressive_mesh(const TriMesh& mesh, const BuildOptions& options,

@@ -20,8 +20,6 @@ enum class Placement { half, full };
 MetricKind parse_metric(const std::string& name);
 Placement parse_placement(const std::string& name);
 const char* metric_name(MetricKind metric);
-/// Whether the metric is for meshes with texture coordinates only.
-bool needs_texture(MetricKind metric);
 const char* placement_name(Placement placement);
 
 struct BuildOptions {
@@ -37,7 +35,7 @@ struct BuildOptions {
   /// and those of an error bound.
   bool track_error = false;
   /// Refuse what turns a triangle over in the texture, whatever the metric; qem5, aps and mapping
-  /// always do.
+  /// always do (see texture_needs).
   bool refuse_folds = false;
   /// Refuse what makes a texture chart grow over another, on a texture of so many texels a side; 0:
   /// do not look. For textures that are adapted (adapt/texture_adapt.h).
@@ -50,6 +48,13 @@ struct BuildOptions {
   double texture_weight = 1;       ///< of qem5, see TextureQemOptions
   LindstromTurkOptions lt;         ///< of lt
 };
+
+/// What a build wants of texture coordinates.
+struct TextureNeeds {
+  bool coordinates = false;  ///< the metric, with this placement, refuses meshes without them
+  bool no_folds = false;     ///< refuses what turns a triangle over in the texture, if there is one
+};
+TextureNeeds texture_needs(const BuildOptions& options);
 
 struct BuildResult {
   ProgressiveRecord record;  ///< made_by is left empty

@@ -180,7 +180,7 @@ TEST(MappingMetric, NoFaceTurnsOverInTheTexture) {
       BuildOptions options;
       options.metric = kind;
       options.placement = placement;
-      options.refuse_folds = !needs_texture(kind);
+      options.refuse_folds = !texture_needs(options).no_folds;
       options.min_cosine = -1;
       ProgressiveMesh pm(build_progressive_mesh(make_relief(seed), options).record);
       for (;;) {

@@ -13,6 +13,24 @@
 namespace viewcell {
 namespace {
 
+TEST(TextureNeeds, ByMetricAndPlacement) {
+  using enum MetricKind;
+  const auto needs = [](MetricKind metric, Placement placement, bool refuse_folds = false) {
+    BuildOptions options;
+    options.metric = metric, options.placement = placement, options.refuse_folds = refuse_folds;
+    const TextureNeeds out = texture_needs(options);
+    return std::pair(out.coordinates, out.no_folds);
+  };
+  for (const Placement placement : {Placement::half, Placement::full}) {
+    EXPECT_EQ(needs(qem3, placement), std::pair(false, false));
+    EXPECT_EQ(needs(lt, placement, true), std::pair(false, true));
+    EXPECT_EQ(needs(qem5, placement), std::pair(true, true));
+  }
+  EXPECT_EQ(needs(aps, Placement::half), std::pair(true, true));
+  EXPECT_EQ(needs(mapping, Placement::half), std::pair(true, true));
+  EXPECT_EQ(needs(mapping, Placement::full), std::pair(false, true));
+}
+
 TEST(QemFullMetric, PlacesWhereTheCostIsLeast) {
   TriMesh mesh = make_noisy_sphere(2, 0.2, 1);
   QemFullMetric metric(mesh.positions, mesh.triangles);

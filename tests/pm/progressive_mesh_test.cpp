@@ -104,7 +104,7 @@ TEST(ProgressiveMesh, RefineThenCoarsenIsTheIdentity) {
 
 TEST(ProgressiveMesh, EveryLevelIsAClosedManifoldOfGenusNought) {
   for (const Way& way : kWays) {
-    const bool is_textured = needs_texture(way.metric);
+    const bool is_textured = texture_needs(options_of(way)).no_folds;
     ProgressiveMesh pm(
         build_progressive_mesh(is_textured ? make_textured_sphere(4) : make_noisy_sphere(3, 0.1, 4),
                                options_of(way))

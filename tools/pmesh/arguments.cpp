@@ -118,8 +118,7 @@ void check_texture_options(const PmeshArguments& a) {
     throw UsageError("--charts-apart looks at the texture that --no-texture leaves out");
   if (a.build.refuse_folds)
     throw UsageError("--no-folds looks at the texture that --no-texture leaves out");
-  const bool is_full = a.build.placement == Placement::full;
-  if (needs_texture(a.build.metric) && !(a.build.metric == MetricKind::mapping && is_full))
+  if (texture_needs(a.build).coordinates)
     throw UsageError("--metric " + a.metric +
                      " needs the texture coordinates that --no-texture leaves out" +
                      (a.build.metric == MetricKind::mapping ? "; --placement full does not" : ""));

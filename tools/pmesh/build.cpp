@@ -53,10 +53,8 @@ Json format_refused(const CollapseCounts& counts) {
 
 // What helps where charts hold collapses back.
 const char* advise(const PmeshArguments& a, const CollapseCounts& counts) {
-  const bool can_leave_out =
-      !needs_texture(a.build.metric) ||
-      (a.build.metric == MetricKind::mapping && a.build.placement == Placement::full);
   const bool by_chart = counts.n_refused[static_cast<std::size_t>(Refusal::chart)] > 0;
+  const bool can_leave_out = !texture_needs(a.build).coordinates;
   return by_chart && can_leave_out ? "; --no-texture leaves charts out" : "";
 }
 
