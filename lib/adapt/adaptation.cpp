@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/gtx/exterior_product.hpp>
 #include <tuple>
+#include <utility>
 
 #include "base/error.h"
 #include "pm/collapse_map.h"
@@ -35,9 +36,9 @@ Finest describe_finest(const ProgressiveMesh& mesh) {
   out.wedges.faces = record.faces;
   find_texture_vertices(out.wedges);
   out.triangles = out.wedges.vertex_triangles();
-  out.charts = find_charts(out.wedges);
-  for (const std::uint32_t chart : out.charts)
-    out.n_charts = std::max<std::size_t>(out.n_charts, chart + 1);
+  Charts charts = find_joined_charts(out.wedges);
+  out.n_charts = charts.size();
+  out.charts = std::move(charts.of);
   return out;
 }
 

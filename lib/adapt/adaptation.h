@@ -50,7 +50,7 @@ struct AdaptationLog {
   std::vector<AdaptationTriangle> triangles;
   std::vector<std::uint32_t> first_point, first_triangle;  ///< of each step; one more at the end
   std::size_t steps_per_collapse = 1;
-  std::vector<std::uint32_t> charts;  ///< of the record's faces
+  std::vector<std::uint32_t> charts;  ///< of the record's faces, see find_joined_charts()
   std::size_t n_charts = 0;
   std::size_t n_folded = 0;  ///< steps that turn a face over in the texture
   /// Steps that have no map of cells; so are those of a vertex where a seam ends within a chart.

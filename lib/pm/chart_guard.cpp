@@ -15,7 +15,7 @@ double area(const TexelTriangle& p) {
 }  // namespace
 
 ChartGuard::ChartGuard(const WedgeMesh& mesh, int size_px)
-    : charts_(find_charts(mesh)), owners_(size_px, size_px), stamps_(size_px, size_px) {
+    : charts_(find_joined_charts(mesh).of), owners_(size_px, size_px), stamps_(size_px, size_px) {
   for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
     Face face{{}, charts_[f] + 1};
     for (std::size_t k = 0; k < 3; ++k)

@@ -5,7 +5,6 @@
 #include <numeric>
 #include <tuple>
 
-#include "base/disjoint_sets.h"
 #include "base/error.h"
 
 namespace viewcell {
@@ -191,20 +190,11 @@ void find_texture_vertices(WedgeMesh& mesh) {
   }
 }
 
-std::vector<std::uint32_t> find_charts(const WedgeMesh& mesh) {
-  DisjointSets sets(mesh.n_wedges());
-  const auto vertex = [&](std::uint32_t wedge) { return mesh.texture_vertex[wedge]; };
-  for (const Triangle& f : mesh.faces)
-    sets.join(vertex(f[0]), vertex(f[1])), sets.join(vertex(f[0]), vertex(f[2]));
-  constexpr std::uint32_t kNone = 0xffffffffu;
-  std::vector<std::uint32_t> chart_of(mesh.n_wedges(), kNone), charts;
-  std::uint32_t n_charts = 0;
-  for (const Triangle& f : mesh.faces) {
-    std::uint32_t& chart = chart_of[sets.find(vertex(f[0]))];
-    if (chart == kNone) chart = n_charts++;
-    charts.push_back(chart);
-  }
-  return charts;
+Charts find_joined_charts(const WedgeMesh& mesh) {
+  std::vector<Triangle> texture_vertices(mesh.faces);
+  for (Triangle& face : texture_vertices)
+    for (std::uint32_t& w : face) w = mesh.texture_vertex[w];
+  return connect_charts(texture_vertices, mesh.n_wedges(), ChartLink::corner);
 }
 
 WedgeTable::WedgeTable(const WedgeMesh& mesh) : texture_vertex_(mesh.texture_vertex) {

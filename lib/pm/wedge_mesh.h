@@ -6,6 +6,7 @@
 #include <glm/glm.hpp>
 #include <vector>
 
+#include "mesh/charts.h"
 #include "pm/collapse_mesh.h"
 
 namespace viewcell {
@@ -39,10 +40,9 @@ WedgeMesh make_wedges(const TriMesh& mesh, bool along_curve = false);
 /// Sets texture_vertex.
 void find_texture_vertices(WedgeMesh& mesh);
 
-/// The texture chart of every face: charts are what corners of equal vertex and texture coordinates
-/// connect, a single corner too (of a TriMesh, uv/chart_map.h connects across whole edges only).
-/// Numbers in the order of their first faces. mesh must have texture coordinates.
-std::vector<std::uint32_t> find_charts(const WedgeMesh& mesh);
+/// Of its faces, connected by single corners too (ChartLink::corner). mesh must have texture
+/// coordinates. In this room and in adaptations, charts are these.
+Charts find_joined_charts(const WedgeMesh& mesh);
 
 /// The wedge at every corner while the mesh collapses.
 class WedgeTable {

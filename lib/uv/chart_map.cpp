@@ -4,23 +4,12 @@
 #include <cmath>
 #include <tuple>
 
-#include "base/disjoint_sets.h"
 #include "base/error.h"
 #include "image/texel_spans.h"
-#include "mesh/edges.h"
 #include "mesh/topology.h"
 
 namespace viewcell {
 namespace {
-
-TriMesh weld_triangles(const TriMesh& mesh) {
-  const std::vector<std::uint32_t> first_at = match_positions(mesh);
-  TriMesh out;
-  out.triangles = mesh.triangles;
-  for (Triangle& t : out.triangles)
-    for (std::uint32_t& v : t) v = first_at[v];
-  return out;
-}
 
 bool has_finite_texcoords(const TriMesh& mesh, std::size_t triangle) {
   for (std::size_t k = 0; k < 3; ++k) {
@@ -30,52 +19,45 @@ bool has_finite_texcoords(const TriMesh& mesh, std::size_t triangle) {
   return true;
 }
 
-// A triangle's side of an edge: the texture coordinates at the edge's lower and higher vertex.
-struct Side {
-  glm::vec2 lower, higher;
-  std::uint32_t triangle;
+// A corner, and what makes it one with others.
+struct Corner {
+  std::uint32_t vertex;
+  glm::vec2 uv;
+  std::uint32_t number;
 
-  auto place() const { return std::tie(lower.x, lower.y, higher.x, higher.y); }
+  auto texture_vertex() const { return std::tie(vertex, uv.x, uv.y); }
 };
 
-Side make_side(const TriMesh& mesh, const TriMesh& welded, std::uint32_t half) {
-  const std::uint32_t t = half / 3, k = half % 3, next = (k + 1) % 3;
-  const glm::vec2 &a = mesh.texcoords[3 * t + k], &b = mesh.texcoords[3 * t + next];
-  const bool is_up = welded.triangles[t][k] < welded.triangles[t][next];
-  return is_up ? Side{a, b, t} : Side{b, a, t};
+// Of triangles that may be in a chart.
+std::vector<Corner> list_corners(const TriMesh& mesh) {
+  const std::vector<std::uint32_t> first_at = match_positions(mesh);
+  std::vector<Corner> out;
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    const auto [a, b, c] = mesh.triangles[t];
+    const Triangle v{first_at[a], first_at[b], first_at[c]};
+    if (v[0] == v[1] || v[1] == v[2] || v[2] == v[0] || !has_finite_texcoords(mesh, t)) continue;
+    for (std::uint32_t k = 0; k < 3; ++k)
+      out.push_back({v[k], mesh.texcoords[3 * t + k], 3 * t + k});
+  }
+  return out;
 }
 
 }  // namespace
 
 Charts find_charts(const TriMesh& mesh) {
   VIEWCELL_CHECK(mesh.texcoords.size() == 3 * mesh.triangles.size(), mesh.texcoords.size());
-  const TriMesh welded = weld_triangles(mesh);
-  const EdgeTable edges = build_edge_table(welded);
-  DisjointSets sets(mesh.triangles.size());
-  std::vector<Side> sides;
-  for (std::size_t e = 0; e < edges.size(); ++e) {
-    sides.clear();
-    for (const std::uint32_t half : edges.halves(e))
-      if (has_finite_texcoords(mesh, half / 3)) sides.push_back(make_side(mesh, welded, half));
-    std::sort(sides.begin(), sides.end(),
-              [](const Side& a, const Side& b) { return a.place() < b.place(); });
-    for (std::size_t i = 1; i < sides.size(); ++i)
-      if (sides[i].place() == sides[i - 1].place())
-        sets.join(sides[i].triangle, sides[i - 1].triangle);
+  std::vector<Corner> corners = list_corners(mesh);
+  std::sort(corners.begin(), corners.end(), [](const Corner& a, const Corner& b) {
+    return a.texture_vertex() < b.texture_vertex();
+  });
+  constexpr Triangle kNowhere{kNoTextureVertex, kNoTextureVertex, kNoTextureVertex};
+  std::vector<Triangle> texture_vertices(mesh.triangles.size(), kNowhere);
+  std::uint32_t n = 0;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    n += i == 0 || corners[i].texture_vertex() != corners[i - 1].texture_vertex();
+    texture_vertices[corners[i].number / 3][corners[i].number % 3] = n - 1;
   }
-  Charts charts;
-  charts.of.assign(mesh.triangles.size(), kNoChart);
-  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-    if (edges.edge_of[3 * t] == kNoEdge || !has_finite_texcoords(mesh, t)) continue;
-    const std::uint32_t root = sets.find(t);
-    if (root == t) {
-      charts.of[t] = static_cast<std::uint32_t>(charts.size());
-      charts.first.push_back(t);
-    } else {
-      charts.of[t] = charts.of[root];
-    }
-  }
-  return charts;
+  return connect_charts(texture_vertices, n, ChartLink::edge);
 }
 
 Image<std::uint32_t> make_chart_map(const TriMesh& mesh, const Charts& charts, int width_px,
