@@ -7,6 +7,7 @@
 
 #include "adapt/adapt_packs.h"
 #include "adapt/texel_affine.h"
+#include "mesh/convex_hull.h"
 
 namespace viewcell {
 namespace {
@@ -28,28 +29,6 @@ struct Bounds {
     for (const glm::vec2& p : points) lo = glm::min(lo, p), hi = glm::max(hi, p);
   }
 };
-
-// Andrew's monotone chain, counter-clockwise. The points are sorted.
-std::vector<glm::vec2> convex_hull(std::vector<glm::vec2>& points) {
-  std::sort(points.begin(), points.end(), [](const glm::vec2& p, const glm::vec2& q) {
-    return p.x < q.x || (p.x == q.x && p.y < q.y);
-  });
-  std::vector<glm::vec2> hull;
-  if (points.empty()) return hull;
-  const auto add = [&](const glm::vec2& p, std::size_t keep) {
-    const auto turns_left = [&] {
-      return glm::cross(hull.back() - hull.end()[-2], p - hull.back()) > 0;
-    };
-    while (hull.size() > keep && !turns_left()) hull.pop_back();
-    hull.push_back(p);
-  };
-  for (const glm::vec2& p : points) add(p, 1);
-  const std::size_t n_lower = hull.size();
-  for (std::size_t k = points.size() - 1; k-- > 0;) add(points[k], n_lower);
-  hull.pop_back();
-  if (hull.size() < 3) hull.clear();  // no texel
-  return hull;
-}
 
 // Moves each edge outwards, as far as the corners are not too sharp for that.
 void append_widened(const std::vector<glm::vec2>& hull, float margin, std::vector<glm::vec2>& out) {
@@ -272,7 +251,8 @@ void AdaptBatchBuilder::add_outline(std::vector<glm::vec2>& points, Outlines& ou
   const glm::vec2 size(width_px_, height_px_);
   std::erase_if(points, [](const glm::vec2& p) { return std::isnan(p.x + p.y); });
   for (glm::vec2& p : points) p = glm::clamp(p, -size, 2.0f * size);
-  const std::vector<glm::vec2> hull = convex_hull(points);
+  std::vector<glm::vec2> hull = convex_hull(points);
+  if (hull.size() < 3) hull.clear();  // no texel
   append_widened(hull, kSnap, outlines.corners);
   outlines.n_corners.push_back(hull.size());
 }

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <glm/gtx/exterior_product.hpp>
 #include <limits>
-#include <tuple>
 
 namespace viewcell {
 namespace {
@@ -37,28 +36,6 @@ bool is_separated_by_edge_of(const ConvexPolygon& a, const ConvexPolygon& b) {
 }
 
 }  // namespace
-
-ConvexPolygon convex_hull(std::vector<glm::dvec2> points) {
-  const auto before = [](const glm::dvec2& a, const glm::dvec2& b) {
-    return std::tie(a.x, a.y) < std::tie(b.x, b.y);
-  };
-  std::sort(points.begin(), points.end(), before);
-  points.erase(std::unique(points.begin(), points.end()), points.end());
-  if (points.size() < 3) return points;
-  ConvexPolygon hull;
-  const auto add_chain = [&](auto first, auto last) {
-    const std::size_t start = hull.size();
-    for (auto p = first; p != last; ++p) {
-      while (hull.size() >= start + 2 && cross(hull[hull.size() - 2], hull.back(), *p) <= 0)
-        hull.pop_back();
-      hull.push_back(*p);
-    }
-    hull.pop_back();  // the first of the other chain
-  };
-  add_chain(points.begin(), points.end());
-  add_chain(points.rbegin(), points.rend());
-  return hull;
-}
 
 bool contains(const ConvexPolygon& polygon, const glm::dvec2& p) {
   if (polygon.size() < 3) return !polygon.empty() && distance_to_edges(p, polygon) == 0;

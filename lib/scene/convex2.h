@@ -1,16 +1,15 @@
-// Convex polygons of the plane: hulls and distances.
+// Convex polygons of the plane and their distances.
 #pragma once
 
 #include <glm/glm.hpp>
 #include <vector>
 
+#include "mesh/convex_hull.h"
+
 namespace viewcell {
 
-/// Corners counter-clockwise; one or two corners make a point or a segment.
+/// Corners counter-clockwise, as of convex_hull(); one or two corners make a point or a segment.
 using ConvexPolygon = std::vector<glm::dvec2>;
-
-/// The convex hull, without collinear points (monotone chain). O(n log n).
-ConvexPolygon convex_hull(std::vector<glm::dvec2> points);
 
 /// Whether p is in the closed polygon.
 bool contains(const ConvexPolygon& polygon, const glm::dvec2& p);

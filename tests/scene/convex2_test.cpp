@@ -17,29 +17,6 @@ ConvexPolygon random_polygon(Random& random, double spread) {
   return convex_hull(points);
 }
 
-TEST(ConvexHull, OfASquareWithPointsInsideAndOnItsEdges) {
-  const ConvexPolygon hull = convex_hull({{0, 0}, {2, 0}, {1, 1}, {2, 2}, {0, 2}, {1, 0}, {0, 0}});
-  EXPECT_EQ(hull, (ConvexPolygon{{0, 0}, {2, 0}, {2, 2}, {0, 2}}));
-  EXPECT_EQ(convex_hull({{0, 0}, {1, 1}, {2, 2}}).size(), 2u);
-  EXPECT_EQ(convex_hull({{3, 3}, {3, 3}}).size(), 1u);
-}
-
-TEST(ConvexHull, HoldsItsPointsAndIsConvex) {
-  for (std::uint64_t seed = 0; seed < 200; ++seed) {
-    SCOPED_TRACE(seed);
-    Random random(seed);
-    std::vector<glm::dvec2> points;
-    for (std::uint32_t n = 3 + random.below(40); n > 0; --n)
-      points.emplace_back(random.uniform(), random.uniform());
-    const ConvexPolygon hull = convex_hull(points);
-    for (std::size_t i = 0; i < hull.size(); ++i) {
-      const glm::dvec2 a = hull[i], b = hull[(i + 1) % hull.size()];
-      for (const glm::dvec2& p : points)
-        EXPECT_GE((b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x), -1e-15);
-    }
-  }
-}
-
 TEST(ConvexDistance, OfSquaresByHand) {
   const ConvexPolygon a{{0, 0}, {1, 0}, {1, 1}, {0, 1}};
   const auto moved = [&](double x, double y) {
