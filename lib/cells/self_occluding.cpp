@@ -4,31 +4,9 @@
 #include <cmath>
 #include <limits>
 
+#include "mesh/closest_point.h"
+
 namespace viewcell {
-namespace {
-
-double distance_to_segment(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3& b) {
-  const glm::dvec3 ab = b - a;
-  const double squared = glm::dot(ab, ab);
-  const double t = squared > 0 ? std::clamp(glm::dot(p - a, ab) / squared, 0.0, 1.0) : 0;
-  return glm::length(p - (a + t * ab));
-}
-
-double distance_to_triangle(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3& b,
-                            const glm::dvec3& c) {
-  const glm::dvec3 n = glm::cross(b - a, c - a);
-  const auto is_above = [&](const glm::dvec3& from, const glm::dvec3& to) {
-    return glm::dot(glm::cross(to - from, p - from), n) >= 0;
-  };
-  const double area = glm::length(n);
-  if (area > 0 && is_above(a, b) && is_above(b, c) && is_above(c, a))
-    return std::abs(glm::dot(p - a, n)) / area;
-  return std::min(
-      {distance_to_segment(p, a, b), distance_to_segment(p, b, c), distance_to_segment(p, c, a)});
-}
-
-}  // namespace
-
 double self_occluding_error_px(double c, double d, double l, double image_res) {
   if (!(d > 0)) return std::numeric_limits<double>::infinity();
   return std::sqrt(3.0) * c * l / (2 * d * (d + l)) * image_res;
@@ -52,7 +30,7 @@ ObjectDepth measure_depth(const glm::dvec3& eye, std::span<const glm::vec3> posi
   for_each_front([&](const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
     const double reach = std::max(glm::length(b - a), glm::length(c - a));
     if (glm::length(a - eye) - reach < nearest)
-      nearest = std::min(nearest, distance_to_triangle(eye, a, b, c));
+      nearest = std::min(nearest, glm::distance(eye, closest_point_on_triangle(eye, a, b, c)));
   });
   if (!std::isfinite(nearest)) return {};
   const glm::dvec3 toward = box.centre() - eye;

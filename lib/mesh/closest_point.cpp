@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
+#include "mesh/closest_on_segment.h"
 
 namespace viewcell {
 namespace {
@@ -21,10 +22,8 @@ constexpr double kThinSquared = 1e-16;
 constexpr double kSlack = 1e-6;
 
 glm::dvec3 closest_point_on_segment(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3& b) {
-  const glm::dvec3 ab = b - a;
-  const double along = glm::dot(p - a, ab), squared = glm::dot(ab, ab);
-  if (!(along > 0)) return a;
-  return along >= squared ? b : a + (along / squared) * ab;
+  const double t = closest_on_segment(p, a, b);
+  return t < 1 ? a + t * (b - a) : b;  // at an end, that to the bit
 }
 
 double distance_squared(const glm::dvec3& p, const glm::dvec3& q) {

@@ -6,8 +6,8 @@
 #include <glm/gtx/exterior_product.hpp>
 #include <limits>
 
+#include "mesh/closest_on_segment.h"
 #include "mesh/closest_point.h"
-#include "pm/nearest.h"
 
 namespace viewcell {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <glm/gtx/exterior_product.hpp>
 
-#include "pm/nearest.h"
+#include "mesh/closest_on_segment.h"
 
 namespace viewcell {
 namespace {

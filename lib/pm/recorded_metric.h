@@ -3,9 +3,9 @@
 
 #include <cmath>
 
+#include "mesh/closest_on_segment.h"
 #include "pm/collapse_look.h"
 #include "pm/collapse_loop.h"
-#include "pm/nearest.h"
 #include "pm/recorder.h"
 
 namespace viewcell {

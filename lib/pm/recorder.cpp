@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "base/error.h"
-#include "pm/nearest.h"
+#include "mesh/closest_on_segment.h"
 #include "pm/texture_fold.h"
 
 namespace viewcell {

@@ -4,6 +4,8 @@
 #include <glm/gtx/exterior_product.hpp>
 #include <limits>
 
+#include "mesh/closest_on_segment.h"
+
 namespace viewcell {
 namespace {
 
@@ -12,10 +14,7 @@ double cross(const glm::dvec2& o, const glm::dvec2& a, const glm::dvec2& b) {
 }
 
 double distance_to_segment(const glm::dvec2& p, const glm::dvec2& a, const glm::dvec2& b) {
-  const glm::dvec2 ab = b - a;
-  const double squared = glm::dot(ab, ab);
-  const double t = squared > 0 ? std::clamp(glm::dot(p - a, ab) / squared, 0.0, 1.0) : 0;
-  return glm::length(p - (a + t * ab));
+  return glm::length(p - (a + closest_on_segment(p, a, b) * (b - a)));
 }
 
 double distance_to_edges(const glm::dvec2& p, const ConvexPolygon& polygon) {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/random.h"
+#include "mesh/closest_on_segment.h"
 #include "mesh/knot.h"
 
 namespace viewcell {
@@ -14,6 +15,13 @@ namespace {
 glm::dvec3 random_point(Random& random, double size = 1) {
   const double x = random.uniform(-size, size), y = random.uniform(-size, size);
   return {x, y, random.uniform(-size, size)};
+}
+
+TEST(ClosestOnSegment, InPlaneAndSpace) {
+  EXPECT_EQ(closest_on_segment(glm::dvec2(1, 7), {0, 0}, {4, 0}), 0.25);
+  EXPECT_EQ(closest_on_segment(glm::dvec2(-1, 7), {0, 0}, {4, 0}), 0);
+  EXPECT_EQ(closest_on_segment(glm::dvec3(9, 7, 1), {0, 0, 0}, {4, 0, 0}), 1);
+  EXPECT_EQ(closest_on_segment(glm::dvec3(9, 7, 1), {4, 0, 0}, {4, 0, 0}), 0);
 }
 
 //  c            The regions around a triangle with its right angle at a, seen from +z.

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <optional>
 
+#include "mesh/closest_on_segment.h"
 #include "mesh/closest_point.h"
 #include "pm/collapse_map.h"
-#include "pm/nearest.h"
 #include "pm/parts.h"
 
 namespace viewcell {

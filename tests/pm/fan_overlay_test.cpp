@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "base/random.h"
-#include "pm/nearest.h"
+#include "mesh/closest_on_segment.h"
 
 namespace viewcell {
 namespace {

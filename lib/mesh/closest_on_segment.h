@@ -1,4 +1,4 @@
-// Nearest points of segments, for inner loops. For triangles see mesh/closest_point.h.
+// Nearest points of segments. For triangles see mesh/closest_point.h.
 #pragma once
 
 #include <algorithm>
@@ -6,9 +6,12 @@
 
 namespace viewcell {
 
-/// t in [0, 1] of the point of segment a b nearest to p.
-inline double closest_on_segment(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3& b) {
-  const glm::dvec3 edge = b - a;
+/// t in [0, 1] of the point of segment a b nearest to p, in the plane or in space; 0 where the
+/// segment is a point.
+template <int N>
+double closest_on_segment(const glm::vec<N, double>& p, const glm::vec<N, double>& a,
+                          const glm::vec<N, double>& b) {
+  const glm::vec<N, double> edge = b - a;
   const double length2 = glm::dot(edge, edge);
   return length2 > 0 ? std::clamp(glm::dot(p - a, edge) / length2, 0.0, 1.0) : 0.0;
 }
