@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "image/chart_reach.h"
 #include "image/image.h"
 #include "image/texel_spans.h"
 
@@ -40,8 +41,7 @@ class Tiles {
   }
 
   std::uint32_t add(const Region& region) {
-    // One texel is read beyond a cell, and a gutter is written there.
-    const float write = region.has_border ? kGutter + 1 : 0, read = write + 1;
+    const float write = region.has_border ? kGutter + 1 : 0, read = write + kFetchReach;
     std::uint32_t pack = 0;
     for_each_tile(region, read, [&](Tile& t) { pack = std::max(pack, t.written); });
     for_each_tile(region, write, [&](Tile& t) { pack = std::max(pack, t.read); });

@@ -8,11 +8,6 @@
 
 namespace viewcell {
 
-/// Width of the gutters around charts, texels: all that lies within 2 texels of a chart in both
-/// directions, so that fetches at a border find nothing else.
-inline constexpr float kGutter = 3;
-inline constexpr int kGutterReach = 2;
-
 /// Steps of a log, pack by pack: no adaptation of a pack writes a texel that another one of it
 /// reads or writes. Each stands behind all that it depends on.
 struct AdaptPacks {

@@ -5,8 +5,8 @@
 #include <glm/gtx/exterior_product.hpp>
 #include <utility>
 
-#include "adapt/adapt_packs.h"
 #include "adapt/texel_affine.h"
+#include "image/chart_reach.h"
 #include "mesh/convex_hull.h"
 
 namespace viewcell {
@@ -88,12 +88,12 @@ void AdaptBatchBuilder::add_pack(std::span<const std::uint32_t> collapses, bool 
     read_points(adaptation, is_collapse);
     Bounds from;
     from.add(scratch_.from);
+    const glm::vec2 lo = from.lo - float{kGutterReach}, hi = from.hi + float{kGutterReach};
     bool has_border = false, is_guarded = false;
     for (const AdaptationTriangle& t : adaptation.triangles) {
       has_border = has_border || t.has_border();
       is_guarded =
-          is_guarded || (log_.n_charts > 1 &&
-                         tiles_.has_others(from.lo - 2.0f, from.hi + 2.0f, owner_name(t.chart)));
+          is_guarded || (log_.n_charts > 1 && tiles_.has_others(lo, hi, owner_name(t.chart)));
     }
     if (has_border || is_guarded)
       add_owned(adaptation, is_collapse, has_border);

@@ -2,6 +2,8 @@
 
 #include <string>
 
+#include "adapt/texel_owners.h"
+
 namespace viewcell {
 namespace {
 
@@ -185,7 +187,8 @@ void main() {
 AdaptPrograms make_adapt_programs(const Gl& gl, int width_px, int height_px,
                                   const AdaptShaderOptions& options) {
   const std::string size = "const ivec2 kSize = ivec2(" + std::to_string(width_px) + ", " +
-                           std::to_string(height_px) + ");\nconst uint kInside = 0x8000u;\n";
+                           std::to_string(height_px) +
+                           ");\nconst uint kInside = " + std::to_string(kInsideChart) + "u;\n";
   const std::string vertex =
       kGlslVersion + size +
       (options.filters ? "#define SOURCE (from + 0.5) / vec2(kSize)\n" : "#define SOURCE from\n") +

@@ -6,7 +6,7 @@
 #include <glm/glm.hpp>
 #include <glm/gtx/exterior_product.hpp>
 
-#include "adapt/texel_owners.h"
+#include "image/chart_reach.h"
 #include "image/texel_spans.h"
 
 namespace viewcell {

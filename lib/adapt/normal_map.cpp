@@ -5,6 +5,8 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
+#include "image/chart_reach.h"
+#include "image/owner_map.h"
 #include "mesh/tangents.h"
 #include "uv/gutter.h"
 #include "uv/triangle_grid.h"
@@ -12,9 +14,6 @@
 
 namespace viewcell {
 namespace {
-
-// How far charts are continued before fetches; texels.
-constexpr int kContinuedNormals = 4;
 
 // A mesh's frames anywhere on its triangles.
 struct Frames {
@@ -33,10 +32,8 @@ struct Frames {
 ImageRgba8 continue_triangles(const ImageRgba8& image, const TriMesh& mesh, int n_threads) {
   TriangleMap map(image.width_px, image.height_px);
   draw_insides(mesh, map);
-  Image<std::uint8_t> is_owned(image.width_px, image.height_px);
-  for (std::size_t i = 0; i < map.pixels.size(); ++i) is_owned.pixels[i] = map.pixels[i] != 0;
   ImageRgba8 out = image;
-  copy_into_gutter(out, nearest_owned_texels(is_owned, kContinuedNormals, n_threads));
+  copy_into_gutter(out, nearest_owned_texels(mark_owned(map), kContinuedReach, n_threads));
   return out;
 }
 
@@ -139,9 +136,8 @@ BakedNormalMap bake_normal_map(const IndexMap& map, const ImageRgba8* normal_map
   parallel_for(n_clamped.size(), options.n_threads, [&](std::size_t y) {
     bake_row(map, triangles, source, frames, level, static_cast<int>(y), out, n_clamped[y]);
   });
-  Image<std::uint8_t> is_shown(map.width_px, map.height_px);
-  for (std::size_t i = 0; i < is_shown.pixels.size(); ++i)
-    out.n_texels += is_shown.pixels[i] = triangles.pixels[i] != 0;
+  const Image<std::uint8_t> is_shown = mark_owned(triangles);
+  for (const std::uint8_t shown : is_shown.pixels) out.n_texels += shown;
   for (const std::size_t n : n_clamped) out.n_clamped += n;
   copy_into_gutter(out.image, nearest_owned_texels(is_shown, kWholeImage, options.n_threads));
   return out;

@@ -6,7 +6,7 @@
 #include <span>
 
 #include "base/error.h"
-#include "image/texel_spans.h"
+#include "image/owner_map.h"
 #include "mesh/closest_point.h"
 #include "mesh/topology.h"
 #include "uv/chart_map.h"
@@ -100,16 +100,13 @@ Original::Original(const TriMesh& level, const TriMesh& original, const ImageRgb
 // What the texture holds outside charts is not trusted: it may be padding or background. Only where
 // a chart holds no texel's centre are the texels around it taken as they are.
 void Original::find_owners(int n_threads) {
-  Image<std::uint8_t> is_owned(owner.width_px, owner.height_px);
   std::vector<bool> has_texels(charts.size() + 1, false);
   TriangleMap map(owner.width_px, owner.height_px);
   const auto chart = [&](std::size_t i) { return charts.of[map.pixels[i] - 1] + 1; };
   draw_insides(mesh, map);
-  for (std::size_t i = 0; i < map.pixels.size(); ++i) {
-    if (map.pixels[i] == 0) continue;
-    is_owned.pixels[i] = 1;
-    has_texels[chart(i)] = true;
-  }
+  Image<std::uint8_t> is_owned = mark_owned(map);
+  for (std::size_t i = 0; i < map.pixels.size(); ++i)
+    if (is_owned.pixels[i]) has_texels[chart(i)] = true;
   draw_rims(mesh, map);
   for (std::size_t i = 0; i < map.pixels.size(); ++i) {
     if (map.pixels[i] == 0) continue;
@@ -223,9 +220,7 @@ ImageRgba8 rebake_texture(const TriMesh& level, const TriMesh& original, const I
       static_cast<std::size_t>(map.height_px), options.n_threads,
       [&](std::size_t y) { rebake_row(level, map, source, static_cast<int>(y), out); },
       options.progress);
-  Image<std::uint8_t> is_shown(map.width_px, map.height_px);
-  for (std::size_t i = 0; i < map.pixels.size(); ++i) is_shown.pixels[i] = map.pixels[i] != 0;
-  copy_into_gutter(out, nearest_owned_texels(is_shown, kWholeImage, options.n_threads));
+  copy_into_gutter(out, nearest_owned_texels(mark_owned(map), kWholeImage, options.n_threads));
   return out;
 }
 

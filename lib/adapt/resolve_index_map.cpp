@@ -1,17 +1,13 @@
 #include "adapt/resolve_index_map.h"
 
-#include <algorithm>
-
-#include "adapt/adapt_packs.h"
+#include "adapt/texel_owners.h"
 #include "base/parallel.h"
+#include "image/chart_reach.h"
 #include "image/texel_spans.h"
 #include "uv/gutter.h"
 
 namespace viewcell {
 namespace {
-
-// How far charts are continued before fetches; texels.
-constexpr int kContinued = 4;
 
 Rgba8 fetch(const ImageRgba8& texture, const glm::vec2& uv) {
   const BilinearTexels at =
@@ -29,7 +25,7 @@ ImageRgba8 continue_charts(const ImageRgba8& texture, const LevelCharts& finest,
   ImageRgba8 out = texture;
   copy_into_gutter(
       out, nearest_owned_texels(make_chart_mask(finest, texture.width_px, texture.height_px),
-                                kContinued, n_threads));
+                                kContinuedReach, n_threads));
   return out;
 }
 
@@ -48,15 +44,6 @@ ImageRgba8 look_up(const IndexMap& map, const ImageRgba8& texture, const ImageRg
     }
   });
   return out;
-}
-
-void grow(Image<std::uint8_t>& mask) {
-  const Image<std::uint8_t> last = mask;
-  for (int y = 0; y < mask.height_px; ++y)
-    for (int x = 0; x < mask.width_px; ++x)
-      for (int j = std::max(y - 1, 0); j <= std::min(y + 1, mask.height_px - 1); ++j)
-        for (int i = std::max(x - 1, 0); i <= std::min(x + 1, mask.width_px - 1); ++i)
-          mask.at(x, y) |= last.at(i, j);
 }
 
 // What charts have left behind takes the nearest texel that is theirs; what none covered, before or
@@ -78,20 +65,6 @@ void fill_around(ImageRgba8& image, const ImageRgba8& original, const LevelChart
 }
 
 }  // namespace
-
-Image<std::uint8_t> make_chart_mask(const LevelCharts& charts, int width_px, int height_px,
-                                    int reach_px) {
-  Image<std::uint8_t> mask(width_px, height_px);
-  for (const std::array<glm::vec2, 3>& face : charts.faces) {
-    TexelTriangle corners;
-    for (std::size_t k = 0; k < 3; ++k) corners[k] = to_texels(face[k], width_px, height_px);
-    for_each_span(corners, width_px, height_px, [&](int x0, int x1, int y) {
-      std::fill(&mask.at(x0, y), &mask.at(x0, y) + (x1 - x0), std::uint8_t{1});
-    });
-  }
-  for (int step = 0; step < reach_px; ++step) grow(mask);
-  return mask;
-}
 
 ImageRgba8 resolve_index_map(const IndexMap& map, const ImageRgba8& texture,
                              const LevelCharts& finest, const LevelCharts& level, int n_threads) {

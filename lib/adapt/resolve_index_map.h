@@ -6,11 +6,6 @@
 
 namespace viewcell {
 
-/// Per texel 1 where its centre lies in a face, or within reach_px of such a texel in both
-/// directions, else 0.
-Image<std::uint8_t> make_chart_mask(const LevelCharts& charts, int width_px, int height_px,
-                                    int reach_px = 0);
-
 /// The texture as an index map shows it: a texture of the map's size, which may differ from the
 /// texture's. Texels that hold their own place keep the original's bits. Fetches find texels of
 /// charts, which are continued a few texels outwards, not what lies around them.

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "adapt/adapt_packs.h"
-#include "image/texel_spans.h"
+#include "image/chart_reach.h"
+#include "image/owner_map.h"
 
 namespace viewcell {
 namespace {
@@ -15,31 +15,18 @@ int tile_of(float at, int n) {
   return std::clamp(static_cast<int>(std::clamp(at, 0.0f, 1e6f)) / kOwnerTile, 0, n - 1);
 }
 
-void claim_faces(const LevelCharts& charts, Image<std::uint16_t>& owners) {
+// owner_of(f): of a face.
+template <typename Owner, typename OwnerOf>
+Image<Owner> draw_faces(const LevelCharts& charts, int width_px, int height_px,
+                        const OwnerOf& owner_of) {
+  Image<Owner> owners(width_px, height_px);
   for (std::size_t f = 0; f < charts.faces.size(); ++f) {
-    const std::uint16_t owner = kInsideChart | owner_name(charts.charts[f]);
     TexelTriangle face;
     for (std::size_t k = 0; k < 3; ++k)
-      face[k] = to_texels(charts.faces[f][k], owners.width_px, owners.height_px);
-    for_each_span(face, owners.width_px, owners.height_px, [&](int x0, int x1, int y) {
-      for (int x = x0; x < x1; ++x)
-        if (owners.at(x, y) == 0) owners.at(x, y) = owner;
-    });
+      face[k] = to_texels(charts.faces[f][k], width_px, height_px);
+    claim_texels(face, owner_of(f), owners);
   }
-}
-
-// One more texel around all charts.
-void widen_gutters(Image<std::uint16_t>& owners) {
-  const Image<std::uint16_t> last = owners;
-  const int w = owners.width_px, h = owners.height_px;
-  for (int y = 0; y < h; ++y)
-    for (int x = 0; x < w; ++x) {
-      std::uint16_t& owner = owners.at(x, y);
-      if (owner != 0) continue;
-      for (int j = std::max(y - 1, 0); j <= std::min(y + 1, h - 1); ++j)
-        for (int i = std::max(x - 1, 0); i <= std::min(x + 1, w - 1); ++i)
-          owner = std::max<std::uint16_t>(owner, last.at(i, j) & ~kInsideChart);
-    }
+  return owners;
 }
 
 }  // namespace
@@ -49,10 +36,20 @@ std::uint16_t owner_name(std::uint32_t chart) {
 }
 
 Image<std::uint16_t> make_texel_owners(const LevelCharts& charts, int width_px, int height_px) {
-  Image<std::uint16_t> owners(width_px, height_px);
-  claim_faces(charts, owners);
-  for (int step = 0; step < static_cast<int>(kGutter); ++step) widen_gutters(owners);
+  Image<std::uint16_t> owners =
+      draw_faces<std::uint16_t>(charts, width_px, height_px, [&](std::size_t f) {
+        return static_cast<std::uint16_t>(kInsideChart | owner_name(charts.charts[f]));
+      });
+  widen_owners(owners, static_cast<int>(kGutter), kInsideChart);
   return owners;
+}
+
+Image<std::uint8_t> make_chart_mask(const LevelCharts& charts, int width_px, int height_px,
+                                    int reach_px) {
+  Image<std::uint8_t> mask = draw_faces<std::uint8_t>(charts, width_px, height_px,
+                                                      [](std::size_t) { return std::uint8_t{1}; });
+  widen_owners(mask, reach_px);
+  return mask;
 }
 
 OwnerTiles::OwnerTiles(const Image<std::uint16_t>& owners)

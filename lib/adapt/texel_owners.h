@@ -18,6 +18,11 @@ std::uint16_t owner_name(std::uint32_t chart);
 /// first one has the inside and the one of the greater name the gutter. Rows down.
 Image<std::uint16_t> make_texel_owners(const LevelCharts& charts, int width_px, int height_px);
 
+/// Per texel 1 where its centre lies in a face, or within reach_px of such a texel in both
+/// directions, else 0.
+Image<std::uint8_t> make_chart_mask(const LevelCharts& charts, int width_px, int height_px,
+                                    int reach_px = 0);
+
 /// Coarse parts of a texture that belong to one chart, mostly: whether a sample may meet another
 /// chart's texel. Never says no where the answer is yes.
 class OwnerTiles {

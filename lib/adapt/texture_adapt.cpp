@@ -12,6 +12,7 @@
 #include "adapt/texel_owners.h"
 #include "base/large_vector.h"
 #include "base/parallel.h"
+#include "image/chart_reach.h"
 
 namespace viewcell {
 
@@ -135,10 +136,10 @@ bool TextureAdapter<Texel>::Engine::meets_others(const Adaptation& adaptation,
                                                  const Batch& batch) const {
   glm::vec2 lo(1e30f), hi(-1e30f);
   for (const glm::vec2& p : batch.from) lo = glm::min(lo, p), hi = glm::max(hi, p);
-  return std::any_of(adaptation.triangles.begin(), adaptation.triangles.end(),
-                     [&](const AdaptationTriangle& t) {
-                       return tiles_.has_others(lo - 2.0f, hi + 2.0f, owner_name(t.chart));
-                     });
+  lo -= float{kGutterReach}, hi += float{kGutterReach};
+  return std::any_of(
+      adaptation.triangles.begin(), adaptation.triangles.end(),
+      [&](const AdaptationTriangle& t) { return tiles_.has_others(lo, hi, owner_name(t.chart)); });
 }
 
 template <typename Texel>

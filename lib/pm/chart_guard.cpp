@@ -4,6 +4,9 @@
 #include <cmath>
 #include <glm/gtx/exterior_product.hpp>
 
+#include "image/chart_reach.h"
+#include "image/owner_map.h"
+
 namespace viewcell {
 namespace {
 
@@ -20,10 +23,7 @@ ChartGuard::ChartGuard(const WedgeMesh& mesh, int size_px)
     Face face{{}, charts_[f] + 1};
     for (std::size_t k = 0; k < 3; ++k)
       face.corners[k] = to_texels(mesh.texcoords[mesh.faces[f][k]], size_px, size_px);
-    for_each_texel(face, [&](int x, int y) {
-      std::uint32_t& owner = owners_.at(x, y);
-      if (owner == 0) owner = face.owner;
-    });
+    claim_texels(face.corners, face.owner, owners_);
   }
 }
 
@@ -75,13 +75,10 @@ bool ChartGuard::keeps_areas(std::size_t n_pairs) const {
 }
 
 bool ChartGuard::is_taken(const Face& face) const {
-  const int last = owners_.width_px - 1;
   bool taken = false;
   for_each_texel(face, [&](int x, int y) {
-    if (taken || stamps_.at(x, y) == stamp_) return;
-    for (int j = std::max(y - 1, 0); j <= std::min(y + 1, last); ++j)
-      for (int i = std::max(x - 1, 0); i <= std::min(x + 1, last); ++i)
-        taken = taken || (owners_.at(i, j) != 0 && owners_.at(i, j) != face.owner);
+    if (!taken && stamps_.at(x, y) != stamp_)
+      taken = is_near_others(owners_, x, y, face.owner, kFetchReach);
   });
   return taken;
 }
@@ -104,14 +101,8 @@ bool ChartGuard::overlaps(const CollapseMesh& mesh, const WedgeTable& wedges,
 }
 
 void ChartGuard::take() {
-  for (const Face& face : before_)
-    for_each_texel(face, [&](int x, int y) {
-      if (owners_.at(x, y) == face.owner) owners_.at(x, y) = 0;
-    });
-  for (const Face& face : after_)
-    for_each_texel(face, [&](int x, int y) {
-      if (owners_.at(x, y) == 0) owners_.at(x, y) = face.owner;
-    });
+  for (const Face& face : before_) release_texels(face.corners, face.owner, owners_);
+  for (const Face& face : after_) claim_texels(face.corners, face.owner, owners_);
   before_.clear(), after_.clear();
 }
 

@@ -6,7 +6,8 @@
 #include <span>
 
 #include "base/error.h"
-#include "image/texel_spans.h"
+#include "image/chart_reach.h"
+#include "image/owner_map.h"
 #include "uv/chart_map.h"
 #include "uv/triangle_map.h"
 #include "uv/uv_stretch.h"
@@ -22,10 +23,6 @@ constexpr double kRounding = 1e-5;
 
 // How far a chart may reach out of the picture and be taken for careless, over the picture.
 constexpr double kOvershoot = 0.1;
-
-// Texels of two charts at most so far apart, in x and in y, are crowded: bilinear fetches of both
-// read texels between them.
-constexpr int kCrowded = 2;
 
 // Where one chart lies over another, or over itself: texels and the other chart.
 struct Shared {
@@ -201,18 +198,12 @@ void summarise_overlaps(const TriMesh& mesh, const Charts& charts, ChartFindings
                    [](const auto& a, const auto& b) { return a.n_texels > b.n_texels; });
 }
 
+// Of two charts, so near each other that bilinear fetches of both read texels between them.
 std::size_t count_crowded(const Image<std::uint32_t>& owner) {
-  const auto is_crowded = [&](int x, int y) {
-    const int x1 = std::min(x + kCrowded, owner.width_px - 1);
-    const int y1 = std::min(y + kCrowded, owner.height_px - 1);
-    for (int j = std::max(0, y - kCrowded); j <= y1; ++j)
-      for (int i = std::max(0, x - kCrowded); i <= x1; ++i)
-        if (owner.at(i, j) != 0 && owner.at(i, j) != owner.at(x, y)) return true;
-    return false;
-  };
   std::size_t n = 0;
   for (int y = 0; y < owner.height_px; ++y)
-    for (int x = 0; x < owner.width_px; ++x) n += owner.at(x, y) != 0 && is_crowded(x, y);
+    for (int x = 0; x < owner.width_px; ++x)
+      n += owner.at(x, y) != 0 && is_near_others(owner, x, y, owner.at(x, y), kGutterReach);
   return n;
 }
 
@@ -338,8 +329,9 @@ std::string describe(const ChartFindings& f) {
            " so small that no texel's centre lies within";
   });
   add(f.n_crowded > 0, [&] {
-    return number_of(f.n_crowded, "texel lies", "texels lie") +
-           " within 2 texels of another chart: the colours of both may mix at their borders";
+    return number_of(f.n_crowded, "texel lies", "texels lie") + " within " +
+           std::to_string(kGutterReach) +
+           " texels of another chart: the colours of both may mix at their borders";
   });
   return out;
 }

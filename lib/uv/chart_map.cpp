@@ -5,8 +5,9 @@
 #include <tuple>
 
 #include "base/error.h"
-#include "image/texel_spans.h"
+#include "image/owner_map.h"
 #include "mesh/topology.h"
+#include "uv/triangle_map.h"
 
 namespace viewcell {
 namespace {
@@ -65,15 +66,8 @@ Image<std::uint32_t> make_chart_map(const TriMesh& mesh, const Charts& charts, i
   Image<std::uint32_t> out(width_px, height_px);
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     if (charts.of[t] == kNoChart) continue;
-    std::array<glm::dvec2, 3> p;
-    for (std::size_t k = 0; k < 3; ++k)
-      p[k] = to_texels(mesh.texcoords[3 * t + k], width_px, height_px);
-    for_each_span(p, width_px, height_px, [&](int x0, int x1, int y) {
-      for (int x = x0; x < x1; ++x) {
-        std::uint32_t& owner = out.at(x, y);
-        if (owner == 0 || owner > charts.of[t] + 1) owner = charts.of[t] + 1;
-      }
-    });
+    claim_texels(texels_of(mesh, t, width_px, height_px), charts.of[t] + 1, out,
+                 Claim::lowest_owner);
   }
   return out;
 }

@@ -39,12 +39,8 @@ glm::dvec3 nearest_weights(const Corners2& at, const glm::dvec2& p) {
 }
 
 void draw_insides(const TriMesh& mesh, TriangleMap& map) {
-  for (std::size_t t = mesh.triangles.size(); t-- > 0;) {
-    const Corners2 p = texels_of(mesh, t, map.width_px, map.height_px);
-    for_each_span(p, map.width_px, map.height_px, [&](int x0, int x1, int y) {
-      std::fill(&map.at(x0, y), &map.at(x0, y) + (x1 - x0), static_cast<std::uint32_t>(t + 1));
-    });
-  }
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
+    claim_texels(texels_of(mesh, t, map.width_px, map.height_px), t + 1, map);
 }
 
 void draw_rims(const TriMesh& mesh, TriangleMap& map) {

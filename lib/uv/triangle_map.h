@@ -4,13 +4,14 @@
 #include <array>
 #include <cstdint>
 
-#include "image/texel_spans.h"
+#include "image/chart_reach.h"
+#include "image/owner_map.h"
 #include "mesh/mesh.h"
 
 namespace viewcell {
 
 /// The corners of triangle t in the texture (to_texels).
-using Corners2 = std::array<glm::dvec2, 3>;
+using Corners2 = TexelTriangleOf<double>;
 Corners2 texels_of(const TriMesh& mesh, std::size_t t, int width_px, int height_px);
 
 /// Weights of the corners at the point of a triangle that is nearest to p.
@@ -26,9 +27,6 @@ using TriangleMap = Image<std::uint32_t>;
 
 /// Texels whose centres lie in a triangle; of several, the lowest.
 void draw_insides(const TriMesh& mesh, TriangleMap& map);
-
-/// Bilinear fetches at a point of a triangle read texels less than sqrt(2) away from it.
-inline constexpr double kRimTexels = 1.5;
 
 /// Free texels within kRimTexels of triangles get the nearest of these, of several the lowest.
 void draw_rims(const TriMesh& mesh, TriangleMap& map);

@@ -7,6 +7,7 @@
 
 #include "adapt/hand_log.h"
 #include "base/random.h"
+#include "image/chart_reach.h"
 
 namespace viewcell {
 namespace {

@@ -8,10 +8,10 @@
 #include <cmath>
 #include <cstdio>
 
-#include "adapt/adapt_packs.h"
 #include "adapt/bump.h"
 #include "adapt/texel_owners.h"
 #include "gl/context.h"
+#include "image/chart_reach.h"
 #include "pm/build.h"
 #include "pm/shapes.h"
 

@@ -117,18 +117,5 @@ TEST(BakeTexture, OfAnotherSize) {
   EXPECT_EQ(out.pixels[2], (Rgba8{140, 0, 0, 255}));
 }
 
-TEST(ChartMask, IsWhereCentresLie) {
-  HandLog hand(9, 7, 1);
-  hand.add_chart({2.5, 1.6, 5.4, 3.9}, 0);  // columns 3 to 5, rows 2 and 3
-  for (int reach = 0; reach < 4; ++reach) {
-    const Image<std::uint8_t> mask = make_chart_mask(hand.charts, 9, 7, reach);
-    for (int y = 0; y < 7; ++y)
-      for (int x = 0; x < 9; ++x) {
-        const bool is_near = x >= 3 - reach && x <= 5 + reach && y >= 2 - reach && y <= 3 + reach;
-        ASSERT_EQ(mask.at(x, y), is_near) << x << ' ' << y;
-      }
-  }
-}
-
 }  // namespace
 }  // namespace viewcell

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
-#include "adapt/adapt_packs.h"
 #include "adapt/hand_log.h"
 #include "base/random.h"
+#include "image/chart_reach.h"
 
 namespace viewcell {
 namespace {
@@ -42,6 +42,19 @@ TEST(TexelOwners, OfChartsThatMeet) {
       }
       ASSERT_EQ(owners.at(x, y), wanted) << x << ' ' << y;
     }
+}
+
+TEST(ChartMask, IsWhereCentresLie) {
+  HandLog hand(9, 7, 1);
+  hand.add_chart({2.5, 1.6, 5.4, 3.9}, 0);  // columns 3 to 5, rows 2 and 3
+  for (int reach = 0; reach < 4; ++reach) {
+    const Image<std::uint8_t> mask = make_chart_mask(hand.charts, 9, 7, reach);
+    for (int y = 0; y < 7; ++y)
+      for (int x = 0; x < 9; ++x) {
+        const bool is_near = x >= 3 - reach && x <= 5 + reach && y >= 2 - reach && y <= 3 + reach;
+        ASSERT_EQ(mask.at(x, y), is_near) << x << ' ' << y;
+      }
+  }
 }
 
 // Of random texels: never no where the answer is yes, and yes only where a tile that the box meets
