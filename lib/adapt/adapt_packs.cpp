@@ -1,7 +1,9 @@
 #include "adapt/adapt_packs.h"
 
 #include <algorithm>
+#include <utility>
 
+#include "base/buckets.h"
 #include "image/chart_reach.h"
 #include "image/image.h"
 #include "image/texel_spans.h"
@@ -87,15 +89,10 @@ AdaptPacks pack_adaptations(const AdaptationLog& log, std::size_t from, std::siz
     pack_of.push_back(pack ? tiles.add(region_of(adaptation, width_px, height_px)) : n_packs + 1);
     n_packs = std::max(n_packs, pack_of.back());
   }
-  AdaptPacks out;
-  out.first.assign(n_packs + 1, 0);
-  for (const std::uint32_t p : pack_of) ++out.first[p];
-  for (std::size_t p = 1; p <= n_packs; ++p) out.first[p] += out.first[p - 1];
-  std::vector<std::size_t> next(out.first.begin(), out.first.end());
-  out.order.resize(collapses.size());
-  for (std::size_t k = 0; k < collapses.size(); ++k)
-    out.order[next[pack_of[k] - 1]++] = collapses[k];
-  return out;
+  Buckets<std::uint32_t> packs = fill_buckets<std::uint32_t>(n_packs, [&](const auto& emit) {
+    for (std::size_t k = 0; k < collapses.size(); ++k) emit(pack_of[k] - 1, collapses[k]);
+  });
+  return {std::move(packs.items), {packs.starts.begin(), packs.starts.end()}};
 }
 
 }  // namespace viewcell

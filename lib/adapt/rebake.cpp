@@ -5,6 +5,7 @@
 #include <cmath>
 #include <span>
 
+#include "base/buckets.h"
 #include "base/error.h"
 #include "image/owner_map.h"
 #include "mesh/closest_point.h"
@@ -43,12 +44,11 @@ Box box_around(const TriMesh& a, const TriMesh& b) {
 // Per vertex position: the triangles at it when their texture coordinates there differ.
 struct Seams {
   std::vector<std::uint32_t> first_at;  // vertex -> lowest vertex at its position
-  std::vector<std::uint32_t> starts, triangles;
+  Buckets<std::uint32_t> triangles;
 
   explicit Seams(const TriMesh& mesh);
   std::span<const std::uint32_t> at(std::uint32_t vertex) const {
-    const std::uint32_t v = first_at[vertex];
-    return {triangles.data() + starts[v], triangles.data() + starts[v + 1]};
+    return triangles.of(first_at[vertex]);
   }
 };
 
@@ -62,13 +62,10 @@ Seams::Seams(const TriMesh& mesh) : first_at(match_positions(mesh)) {
     if (known == kNoChart) known = static_cast<std::uint32_t>(c);
     if (mesh.texcoords[c] != mesh.texcoords[known]) is_seam[vertex(c)] = true;
   }
-  starts.assign(mesh.positions.size() + 1, 0);
-  for (std::size_t c = 0; c < n_corners; ++c) starts[vertex(c) + 1] += is_seam[vertex(c)];
-  for (std::size_t v = 1; v < starts.size(); ++v) starts[v] += starts[v - 1];
-  std::vector<std::uint32_t> ends(starts.begin(), starts.end() - 1);
-  triangles.resize(starts.back());
-  for (std::size_t c = 0; c < n_corners; ++c)
-    if (is_seam[vertex(c)]) triangles[ends[vertex(c)]++] = static_cast<std::uint32_t>(c / 3);
+  triangles = fill_buckets<std::uint32_t>(mesh.positions.size(), [&](const auto& emit) {
+    for (std::size_t c = 0; c < n_corners; ++c)
+      if (is_seam[vertex(c)]) emit(vertex(c), static_cast<std::uint32_t>(c / 3));
+  });
 }
 
 struct Original {

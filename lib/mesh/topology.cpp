@@ -5,6 +5,7 @@
 #include <span>
 #include <tuple>
 
+#include "base/buckets.h"
 #include "base/disjoint_sets.h"
 
 namespace viewcell {
@@ -12,29 +13,6 @@ namespace {
 
 bool repeats_index(const Triangle& t) {
   return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
-}
-
-// Lists of rows by key, made by counting: row i of key k stands in items[starts[k], starts[k + 1]).
-template <typename Item>
-struct Buckets {
-  std::vector<std::uint32_t> starts;
-  std::vector<Item> items;
-
-  auto begin(std::size_t key) { return items.begin() + starts[key]; }
-  auto end(std::size_t key) { return items.begin() + starts[key + 1]; }
-};
-
-// for_each(emit) calls emit(key, item) for every row, twice over in the same order.
-template <typename Item, typename ForEach>
-Buckets<Item> fill_buckets(std::size_t n_keys, const ForEach& for_each) {
-  Buckets<Item> out;
-  out.starts.assign(n_keys + 2, 0);
-  for_each([&](std::uint32_t key, const Item&) { ++out.starts[key + 2]; });
-  std::partial_sum(out.starts.begin(), out.starts.end(), out.starts.begin());
-  out.items.resize(out.starts.back());
-  for_each([&](std::uint32_t key, const Item& item) { out.items[out.starts[key + 1]++] = item; });
-  out.starts.pop_back();
-  return out;
 }
 
 // ---- edges ----
@@ -54,12 +32,13 @@ void measure_edges(const TriMesh& mesh, MeshTopology& out) {
       }
   });
   for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
-    std::sort(buckets.begin(v), buckets.end(v),
+    const std::span<HalfEdge> halves = buckets.of(v);
+    std::sort(halves.begin(), halves.end(),
               [](const HalfEdge& a, const HalfEdge& b) { return a.higher < b.higher; });
-    for (auto first = buckets.begin(v); first != buckets.end(v);) {
+    for (auto first = halves.begin(); first != halves.end();) {
       auto last = first;
       std::size_t n_upward = 0;
-      for (; last != buckets.end(v) && last->higher == first->higher; ++last)
+      for (; last != halves.end() && last->higher == first->higher; ++last)
         n_upward += last->is_upward;
       ++out.n_edges;
       if (last - first == 1) ++out.n_boundary_edges;
@@ -104,7 +83,7 @@ void measure_vertices(const TriMesh& mesh, MeshTopology& out) {
   DisjointSets components(mesh.positions.size());
   std::size_t n_referenced = 0;
   for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
-    const std::span<const LinkEdge> link(links.begin(v), links.end(v));
+    const std::span<const LinkEdge> link = links.of(v);
     if (link.empty()) {
       ++out.n_unreferenced_vertices;
       continue;
@@ -140,13 +119,13 @@ std::vector<bool> find_duplicates(const TriMesh& mesh) {
   });
   std::vector<bool> is_duplicate(mesh.triangles.size(), false);
   for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
-    std::sort(buckets.begin(v), buckets.end(v), [](const Row& a, const Row& b) {
+    const std::span<Row> rows = buckets.of(v);
+    std::sort(rows.begin(), rows.end(), [](const Row& a, const Row& b) {
       return std::tie(a.second, a.third, a.triangle) < std::tie(b.second, b.third, b.triangle);
     });
-    for (auto row = buckets.begin(v); row != buckets.end(v); ++row)
-      if (row != buckets.begin(v) && row->second == (row - 1)->second &&
-          row->third == (row - 1)->third)
-        is_duplicate[row->triangle] = true;
+    for (std::size_t i = 1; i < rows.size(); ++i)
+      if (rows[i].second == rows[i - 1].second && rows[i].third == rows[i - 1].third)
+        is_duplicate[rows[i].triangle] = true;
   }
   return is_duplicate;
 }

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <span>
 
+#include "base/buckets.h"
 #include "base/error.h"
 #include "image/chart_reach.h"
 #include "image/owner_map.h"
@@ -32,23 +33,13 @@ struct Shared {
   auto operator<=>(const Shared&) const = default;
 };
 
-// Triangles by chart, then number.
-struct Members {
-  std::vector<std::uint32_t> starts, triangles;
-
-  explicit Members(const Charts& charts) : starts(charts.size() + 1, 0) {
-    for (const std::uint32_t c : charts.of)
-      if (c != kNoChart) ++starts[c + 1];
-    for (std::size_t c = 1; c < starts.size(); ++c) starts[c] += starts[c - 1];
-    triangles.resize(starts.back());
-    std::vector<std::uint32_t> ends(starts.begin(), starts.end() - 1);
+// The triangles of each chart, ascending.
+Buckets<std::uint32_t> list_members(const Charts& charts) {
+  return fill_buckets<std::uint32_t>(charts.size(), [&](const auto& emit) {
     for (std::uint32_t t = 0; t < charts.of.size(); ++t)
-      if (charts.of[t] != kNoChart) triangles[ends[charts.of[t]]++] = t;
-  }
-  std::span<const std::uint32_t> of(std::size_t chart) const {
-    return {triangles.data() + starts[chart], triangles.data() + starts[chart + 1]};
-  }
-};
+      if (charts.of[t] != kNoChart) emit(charts.of[t], t);
+  });
+}
 
 // Counts one more and keeps the lowest number.
 void count(std::size_t& n, std::uint32_t& first, std::uint32_t number) {
@@ -222,7 +213,7 @@ ChartFindings check_charts(const TriMesh& input, int width_px, int height_px) {
   }
   const TriMesh& mesh = moved.triangles.empty() ? input : moved;
   const Charts charts = find_charts(mesh);
-  const Members members(charts);
+  const Buckets<std::uint32_t> members = list_members(charts);
   const Image<std::uint32_t> owner = make_chart_map(mesh, charts, width_px, height_px);
   out.n_charts = charts.size();
   Drawing drawing{mesh, owner, Image<std::uint32_t>(width_px, height_px), {}};

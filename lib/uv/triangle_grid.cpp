@@ -24,22 +24,16 @@ TriangleGrid::TriangleGrid(const TriMesh& mesh, const std::vector<std::uint32_t>
   const double n_triangles = static_cast<double>(mesh.triangles.size());
   n_ = std::clamp(static_cast<int>(std::sqrt(n_triangles)), 1, kMostCells);
   if (lo.x <= hi.x) lo_ = lo, cell_ = glm::max((hi - lo) / double(n_), glm::dvec2(1e-12));
-  const auto for_each_cell = [&](auto&& visit) {
+  cells_ = fill_buckets<std::uint32_t>(place_of(0, n_), [&](const auto& emit) {
     for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
       const Corners2 p = corners_of(t);
       if (!is_finite(p)) continue;
       const glm::ivec2 a = cell_of(glm::min(glm::min(p[0], p[1]), p[2]));
       const glm::ivec2 b = cell_of(glm::max(glm::max(p[0], p[1]), p[2]));
       for (int y = a.y; y <= b.y; ++y)
-        for (int x = a.x; x <= b.x; ++x) visit(place_of(x, y), t);
+        for (int x = a.x; x <= b.x; ++x) emit(place_of(x, y), t);
     }
-  };
-  starts_.assign(place_of(0, n_) + 1, 0);
-  for_each_cell([&](std::size_t cell, std::uint32_t) { ++starts_[cell + 1]; });
-  for (std::size_t i = 1; i < starts_.size(); ++i) starts_[i] += starts_[i - 1];
-  triangles_.resize(starts_.back());
-  std::vector<std::uint32_t> ends(starts_.begin(), starts_.end() - 1);
-  for_each_cell([&](std::size_t cell, std::uint32_t t) { triangles_[ends[cell]++] = t; });
+  });
 }
 
 glm::ivec2 TriangleGrid::cell_of(const glm::dvec2& uv) const {
@@ -57,9 +51,7 @@ TriangleGrid::Place TriangleGrid::find(const glm::dvec2& uv, std::uint32_t chart
   double least2 = std::numeric_limits<double>::infinity();
   const auto look_into = [&](int x, int y) {
     if (x < 0 || y < 0 || x >= n_ || y >= n_) return;
-    const std::size_t cell = place_of(x, y);
-    for (std::uint32_t i = starts_[cell]; i < starts_[cell + 1]; ++i) {
-      const std::uint32_t t = triangles_[i];
+    for (const std::uint32_t t : cells_.of(place_of(x, y))) {
       if (charts_[t] != chart) continue;
       const Corners2 p = corners_of(t);
       const glm::dvec3 weights = nearest_weights(p, uv);

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/buckets.h"
 #include "uv/triangle_map.h"
 
 namespace viewcell {
@@ -37,7 +38,7 @@ class TriangleGrid {
   const std::vector<std::uint32_t>& charts_;
   int n_ = 1;  // cells along each side
   glm::dvec2 lo_{0}, cell_{1};
-  std::vector<std::uint32_t> starts_, triangles_;
+  Buckets<std::uint32_t> cells_;  // triangles
 };
 
 }  // namespace viewcell
