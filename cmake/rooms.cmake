@@ -2,8 +2,9 @@
 # own. This is the one place that says so; scripts/check-rooms holds every include against it.
 set(VIEWCELL_ROOMS
   "base:"
+  "rays: base"
   "image: base"
-  "mesh: base"
+  "mesh: base rays"
   "gl: base image"
   "formats: base image mesh"
   "uv: base image mesh"
@@ -14,10 +15,10 @@ set(VIEWCELL_ROOMS
   "cells: base mesh scene"
   "park: base mesh formats pm scene"
   "visibility: mesh"
-  "capture: base image gl scene cells"
+  "capture: base rays image gl scene cells"
   "bundle: base image scene cells"
   "bake: base image mesh formats pm scene cells visibility capture bundle"
-  "draw: base image mesh gl report scene"
+  "draw: base rays image mesh gl report scene"
   "play: base image gl report scene bundle draw")
 
 # viewcell_room(NAME [LIBRARIES ...]): the static library viewcell_NAME from lib/NAME/*.cpp, which

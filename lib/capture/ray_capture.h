@@ -1,4 +1,4 @@
-// The `embree` engine: captures by ray casting. The only user of Embree in this room.
+// The `embree` engine: captures by ray casting.
 #pragma once
 
 #include <memory>
@@ -12,8 +12,9 @@ namespace viewcell {
 /// capture() may be called from many threads at once.
 class RayCapture {
  public:
-  /// The scene must outlive this. Throws MachineError when Embree cannot start.
-  RayCapture(const Scene& scene, int n_threads);
+  /// The scene must outlive this. n_threads (0: all) build, in budget_bytes at most (0: as many as
+  /// there are). Throws MachineError when that is not enough.
+  RayCapture(const Scene& scene, int n_threads, std::size_t budget_bytes = 0);
   ~RayCapture();
   RayCapture(const RayCapture&) = delete;
   RayCapture& operator=(const RayCapture&) = delete;
@@ -23,9 +24,9 @@ class RayCapture {
   CaptureTile capture(ObjectId object, const CaptureView& view, const Crop& crop) const;
 
  private:
-  struct Device;
+  struct Scenes;
   const Scene& scene_;
-  std::unique_ptr<Device> device_;
+  std::unique_ptr<Scenes> scenes_;
 };
 
 }  // namespace viewcell

@@ -15,9 +15,10 @@ namespace viewcell {
 /// objects and 0 elsewhere.
 class RayCaster {
  public:
-  /// scene must outlive this. n_threads 0: all. Throws MachineError when Embree cannot start.
-  /// Cost: about a second a million triangles.
-  explicit RayCaster(const Scene& scene, int n_threads = 0);
+  /// scene must outlive this. n_threads (0: all) build and draw; building takes budget_bytes at
+  /// most (0: as many as there are). Throws MachineError when that is not enough. Cost: about a
+  /// second a million triangles.
+  explicit RayCaster(const Scene& scene, int n_threads = 0, std::size_t budget_bytes = 0);
   ~RayCaster();
   RayCaster(const RayCaster&) = delete;
   RayCaster& operator=(const RayCaster&) = delete;

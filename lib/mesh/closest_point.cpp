@@ -1,15 +1,12 @@
 #include "mesh/closest_point.h"
 
-#include <embree3/rtcore.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <string>
 
 #include "base/error.h"
-#include "base/parallel.h"
 #include "mesh/closest_on_segment.h"
+#include "rays/ray_scene.h"
 
 namespace viewcell {
 namespace {
@@ -91,22 +88,16 @@ struct ClosestPointFinder::Hierarchy {
   std::vector<glm::dvec3> positions;  // in the domain: within [-1, 1]
   glm::dvec3 centre{0};
   double scale = 1;  // a power of two, so that scaling rounds nothing
-  RTCDevice device = nullptr;
-  RTCScene scene = nullptr;
+  RayScene scene;
 
-  Hierarchy(const TriMesh& mesh, const Box& domain, int n_threads);
-  ~Hierarchy() {
-    if (scene) rtcReleaseScene(scene);
-    if (device) rtcReleaseDevice(device);
-  }
-  Hierarchy(const Hierarchy&) = delete;
-  Hierarchy& operator=(const Hierarchy&) = delete;
+  Hierarchy(const TriMesh& mesh, const Box& domain, const RayDeviceOptions& options);
 
   glm::dvec3 into_domain(const glm::dvec3& p) const { return scale * (p - centre); }
-  void build(int n_threads);
+  void build(const RayDeviceOptions& options);
 };
 
-ClosestPointFinder::Hierarchy::Hierarchy(const TriMesh& mesh, const Box& domain, int n_threads)
+ClosestPointFinder::Hierarchy::Hierarchy(const TriMesh& mesh, const Box& domain,
+                                         const RayDeviceOptions& options)
     : triangles(mesh.triangles), centre(domain.centre()) {
   VIEWCELL_CHECK(!mesh.triangles.empty());
   const glm::dvec3 size = domain.size();
@@ -114,33 +105,15 @@ ClosestPointFinder::Hierarchy::Hierarchy(const TriMesh& mesh, const Box& domain,
   if (extent > 0) scale = std::ldexp(1.0, -std::ilogb(extent));
   positions.reserve(mesh.positions.size());
   for (const glm::vec3& p : mesh.positions) positions.push_back(into_domain(glm::dvec3(p)));
-  build(n_threads);
+  build(options);
 }
 
-void ClosestPointFinder::Hierarchy::build(int n_threads) {
-  const int threads = n_threads > 0 ? n_threads : hardware_threads();
-  device = rtcNewDevice(("threads=" + std::to_string(threads)).c_str());
-  if (!device) throw MachineError("Embree: cannot start");
-  scene = rtcNewScene(device);
-  RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-  auto* corners = static_cast<glm::vec3*>(rtcSetNewGeometryBuffer(
-      geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(glm::vec3), positions.size()));
-  auto* indices = static_cast<Triangle*>(rtcSetNewGeometryBuffer(
-      geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, sizeof(Triangle), triangles.size()));
-  if (!corners || !indices) {
-    rtcReleaseGeometry(geometry);
-    throw MachineError("Embree: out of memory");
-  }
+void ClosestPointFinder::Hierarchy::build(const RayDeviceOptions& options) {
   // Vertices that no triangle uses may lie outside the domain, beyond what a float holds.
+  std::vector<glm::vec3> corners(positions.size(), glm::vec3(0));
   for (const Triangle& t : triangles)
     for (const std::uint32_t v : t) corners[v] = glm::vec3(positions[v]);
-  std::copy(triangles.begin(), triangles.end(), indices);
-  rtcCommitGeometry(geometry);
-  rtcAttachGeometry(scene, geometry);
-  rtcReleaseGeometry(geometry);
-  rtcCommitScene(scene);
-  if (rtcGetDeviceError(device) != RTC_ERROR_NONE)
-    throw MachineError("Embree: cannot build the hierarchy");
+  scene = RayScene(RayDevice(options), corners, triangles, {.robust = false});
 }
 
 namespace {
@@ -172,29 +145,23 @@ struct Search {
   float radius() const { return static_cast<float>(std::sqrt(squared) * (1 + kSlack) + kSlack); }
 };
 
-bool consider_triangle(RTCPointQueryFunctionArguments* args) {
-  Search& search = *static_cast<Search*>(args->userPtr);
-  if (!search.consider(args->primID)) return false;
-  args->query->radius = search.radius();
+bool consider_triangle(void* user, std::uint32_t id, float& radius) {
+  Search& search = *static_cast<Search*>(user);
+  if (!search.consider(id)) return false;
+  radius = search.radius();
   return true;
 }
 
-void search_scene(RTCScene scene, Search& search) {
-  RTCPointQuery query;
-  query.x = static_cast<float>(search.p.x);
-  query.y = static_cast<float>(search.p.y);
-  query.z = static_cast<float>(search.p.z);
-  query.time = 0;
-  query.radius = search.radius();
-  RTCPointQueryContext context;
-  rtcInitPointQueryContext(&context);
-  rtcPointQuery(scene, &query, &context, consider_triangle, &search);
+void search_scene(const RayScene& scene, Search& search) {
+  scene.visit_near(glm::vec3(search.p), search.radius(), consider_triangle, &search);
 }
 
 }  // namespace
 
-ClosestPointFinder::ClosestPointFinder(const TriMesh& mesh, const Box& domain, int n_threads)
-    : hierarchy_(std::make_unique<Hierarchy>(mesh, domain, n_threads)) {}
+ClosestPointFinder::ClosestPointFinder(const TriMesh& mesh, const Box& domain, int n_threads,
+                                       std::size_t budget_bytes)
+    : hierarchy_(
+          std::make_unique<Hierarchy>(mesh, domain, RayDeviceOptions{n_threads, budget_bytes})) {}
 
 ClosestPointFinder::~ClosestPointFinder() = default;
 

@@ -25,7 +25,7 @@ struct ClosestPoint {
   std::uint32_t triangle = 0;  ///< the lowest number among the nearest
 };
 
-/// Nearest points by Embree's bounding volume hierarchy (rtcPointQuery). The hierarchy is in float;
+/// Nearest points by a bounding volume hierarchy (rays/ray_scene.h). The hierarchy is in float;
 /// what it leaves over is measured in double precision, and it leaves over no triangle that could
 /// be the nearest, so results are those of trying every triangle, whatever the hierarchy is like.
 /// Coordinates may have any size and lie anywhere.
@@ -33,9 +33,10 @@ class ClosestPointFinder {
  public:
   /// domain: a box that holds the mesh and all points that will be asked about; the hierarchy works
   /// in it, and is slow for meshes below 1e-5 of it. mesh must have a triangle, finite positions
-  /// and indices in range, and must outlive the finder. n_threads (0: all) build. Throws
-  /// MachineError.
-  ClosestPointFinder(const TriMesh& mesh, const Box& domain, int n_threads = 0);
+  /// and indices in range, and must outlive the finder. n_threads (0: all) build, in budget_bytes
+  /// at most (0: as many as there are). Throws MachineError when that is not enough.
+  ClosestPointFinder(const TriMesh& mesh, const Box& domain, int n_threads = 0,
+                     std::size_t budget_bytes = 0);
   ~ClosestPointFinder();
   ClosestPointFinder(const ClosestPointFinder&) = delete;
   ClosestPointFinder& operator=(const ClosestPointFinder&) = delete;

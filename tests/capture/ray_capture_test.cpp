@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "base/error.h"
 #include "base/parallel.h"
 #include "capture/shapes.h"
 
@@ -178,6 +179,14 @@ TEST(RayCapture, ManyThreadsGiveTheSameBytes) {
     EXPECT_EQ(tile.color.pixels, tiles[0].color.pixels);
     EXPECT_EQ(tile.inverse_depth.pixels, tiles[0].inverse_depth.pixels);
   }
+}
+
+// Not captures of nothing.
+TEST(RayCapture, WantOfMemoryIsTheMachinesFault) {
+  const SphereCase c(false, false);
+  for (const std::size_t budget_bytes : {1u << 10, 1u << 20})
+    EXPECT_THROW(RayCapture(c.scene, 2, budget_bytes), MachineError);
+  EXPECT_NO_THROW(RayCapture(c.scene, 2, 1u << 28));
 }
 
 }  // namespace

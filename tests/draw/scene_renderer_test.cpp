@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/error.h"
 #include "base/srgb.h"
 #include "draw/gl_fixture.h"
 #include "draw/raycast.h"
@@ -216,6 +217,13 @@ TEST(RayCaster, SamePixelsForAnyNumberOfThreads) {
   RayCaster(scene, 1).draw(camera, one);
   RayCaster(scene, 3).draw(camera, three);
   EXPECT_EQ(one.pixels, three.pixels);
+}
+
+TEST(RayCaster, WantOfMemoryIsTheMachinesFault) {
+  const Scene scene = make_small_scene(20, 7);
+  for (const std::size_t budget_bytes : {1u << 10, 1u << 14})
+    EXPECT_THROW(RayCaster(scene, 2, budget_bytes), MachineError);
+  EXPECT_NO_THROW(RayCaster(scene, 2, 1u << 28));
 }
 
 TEST(SceneRenderer, ShiftByWholePixelsMovesThePicture) {

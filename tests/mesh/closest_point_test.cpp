@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/error.h"
 #include "base/random.h"
 #include "mesh/closest_on_segment.h"
 #include "mesh/knot.h"
@@ -233,6 +234,13 @@ TEST(ClosestPointFinder, UnusedVerticesDoNotMatter) {
   box.add(glm::dvec3(0, 0, 1e-30));
   const ClosestPointFinder finder(mesh, box, 1);
   EXPECT_NEAR(finder.find({1e-31, 1e-31, 1e-30}).distance, 1e-30, 1e-40);
+}
+
+TEST(ClosestPointFinder, WantOfMemoryIsTheMachinesFault) {
+  const TriMesh mesh = make_bumpy_torus(40, 60);
+  for (const std::size_t budget_bytes : {1u << 10, 1u << 16})
+    EXPECT_THROW(ClosestPointFinder(mesh, bounding_box(mesh), 1, budget_bytes), MachineError);
+  EXPECT_NO_THROW(ClosestPointFinder(mesh, bounding_box(mesh), 1, 1u << 28));
 }
 
 }  // namespace
