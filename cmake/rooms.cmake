@@ -13,7 +13,7 @@ set(VIEWCELL_ROOMS
   "report: base image mesh formats"
   "scene: base mesh formats"
   "cells: base mesh scene"
-  "park: base mesh formats pm scene"
+  "park: base mesh formats pm scene cells"
   "visibility: mesh"
   "capture: base rays image gl scene cells"
   "bundle: base image scene cells"

@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
+#include "cells/grid.h"
 #include "park/coverage.h"
 #include "park/walk_gaze.h"
 #include "park/walk_route.h"
@@ -35,6 +36,7 @@ constexpr std::array<double, kParkSizes> kLeast{0.06, 0, 0.15};
 // What candidates are judged by, the same for all.
 struct Judge {
   const Ground& ground;
+  HexGrid grid;  // that hexcells lays by default
   const std::vector<SceneMesh>& meshes;
   std::vector<CoverageSamples> near_samples, far_samples;  // per mesh
 };
@@ -62,45 +64,14 @@ Panoramas look_around(const Judge& judge, const glm::dvec3& eye) {
   return out;
 }
 
-// --- cells of the grid that hexcells lays by default ---
-
-using CellPlace = std::pair<int, int>;  // column, row
-
-glm::dvec2 cell_centre(const CellPlace& cell) {
-  const double tall = std::sqrt(3.0) * kCellSize;
-  return kParkArea.lo +
-         glm::dvec2(1.5 * kCellSize * cell.first, tall * (cell.second + 0.5 * (cell.first & 1)));
-}
-
-CellPlace cell_at(const glm::dvec2& p) {
-  const auto column = static_cast<int>(std::floor((p.x - kParkArea.lo.x) / (1.5 * kCellSize)));
-  const auto row =
-      static_cast<int>(std::floor((p.y - kParkArea.lo.y) / (std::sqrt(3.0) * kCellSize)));
-  CellPlace best{};
-  double least = 1e300;
-  for (int c = column - 1; c <= column + 2; ++c)
-    for (int r = row - 1; r <= row + 2; ++r)
-      if (const double d = glm::length(cell_centre({c, r}) - p); d < least)
-        least = d, best = {c, r};
-  return best;
-}
-
-ConvexPolygon cell_corners(const CellPlace& cell) {
-  ConvexPolygon corners;
-  for (int k = 0; k < 6; ++k)
-    corners.push_back(cell_centre(cell) +
-                      kCellSize * glm::dvec2(std::cos(k * std::numbers::pi / 3),
-                                             std::sin(k * std::numbers::pi / 3)));
-  return corners;
-}
-
 // The objects, ascending, whose footprints meet the closed cell.
-std::vector<std::size_t> objects_in(const Ground& ground, const CellPlace& cell) {
-  const ConvexPolygon corners = cell_corners(cell);
+std::vector<std::size_t> objects_in(const Ground& ground, const HexGrid& grid, HexPlace cell) {
+  const ConvexPolygon corners = corners_of(grid, cell);
+  const glm::dvec2 centre = centre_of(grid, cell);
   std::vector<std::size_t> inside;
   for (std::size_t i = 0; i < ground.objects.size(); ++i) {
-    const double far = glm::length(glm::dvec2(ground.objects[i].translation) - cell_centre(cell));
-    if (far < ground.radii[i] + kCellSize && distance(corners, ground.footprints[i]) == 0)
+    const double far = glm::length(glm::dvec2(ground.objects[i].translation) - centre);
+    if (far < ground.radii[i] + grid.size && distance(corners, ground.footprints[i]) == 0)
       inside.push_back(i);
   }
   return inside;
@@ -112,7 +83,7 @@ std::vector<std::size_t> objects_in(const Ground& ground, const CellPlace& cell)
 struct Moment {
   glm::dvec3 eye{0};
   double heading_rad = 0, yaw_rad = 0;
-  CellPlace cell;
+  HexPlace cell;
   std::vector<std::size_t> inside;  // the cell's objects
   std::array<double, kParkSizes> coverage{};
   std::array<double, kParkSizes> triangles_inside{};  // in view
@@ -125,17 +96,17 @@ double eye_height(double along, double phase) {
 }
 
 // A moment for every kSamplesPerMoment-th point of the route.
-std::vector<Moment> place_moments(const Ground& ground, const std::vector<glm::dvec2>& route,
-                                  double phase) {
+std::vector<Moment> place_moments(const Ground& ground, const HexGrid& grid,
+                                  const std::vector<glm::dvec2>& route, double phase) {
   std::vector<Moment> moments;
   for (std::size_t i = 0; i < route.size(); i += kSamplesPerMoment) {
     const glm::dvec2 way = route[std::min(i + 1, route.size() - 1)] - route[i > 0 ? i - 1 : 0];
     Moment moment;
     moment.eye = glm::dvec3(route[i], eye_height(kSampleLength * static_cast<double>(i), phase));
     moment.heading_rad = std::atan2(way.y, way.x);
-    moment.cell = cell_at(route[i]);
+    moment.cell = place_at(grid, route[i]);
     const bool is_same = !moments.empty() && moments.back().cell == moment.cell;
-    moment.inside = is_same ? moments.back().inside : objects_in(ground, moment.cell);
+    moment.inside = is_same ? moments.back().inside : objects_in(ground, grid, moment.cell);
     moments.push_back(std::move(moment));
   }
   return moments;
@@ -207,12 +178,12 @@ void look_inside_cells(const Judge& judge, std::vector<Moment>& moments) {
 WalkReport measure(const Ground& ground, std::span<const Moment> moments) {
   WalkReport report;
   const auto n = static_cast<double>(moments.size());
-  std::set<CellPlace> cells;
+  std::set<std::pair<int, int>> cells;
   double run = 0;
   report.min_clearance = kCellSize;
   for (std::size_t i = 0; i < moments.size(); ++i) {
     const Moment& m = moments[i];
-    cells.insert(m.cell);
+    cells.emplace(m.cell.column, m.cell.row);
     if (i > 0) report.length += glm::length(m.eye - moments[i - 1].eye);
     for (std::size_t size = 0; size < kParkSizes; ++size) {
       report.coverage[size] += m.coverage[size] / n;
@@ -254,7 +225,7 @@ std::optional<Candidate> make_candidate(const Judge& judge, std::uint64_t seed) 
   candidate.phase = random.uniform(0, 2 * std::numbers::pi);
   candidate.route = make_route(judge.ground, random, kSpeed * kDuration, kSampleLength, kClearance);
   if (candidate.route.empty()) return {};
-  candidate.moments = place_moments(judge.ground, candidate.route, candidate.phase);
+  candidate.moments = place_moments(judge.ground, judge.grid, candidate.route, candidate.phase);
   look(judge, candidate.moments);
   look_inside_cells(judge, candidate.moments);
   candidate.report = measure(judge.ground, candidate.moments);
@@ -321,7 +292,7 @@ CameraPath to_path(const Candidate& candidate, std::size_t first, std::size_t n_
 Walks make_walks(const std::vector<SceneMesh>& meshes, const std::vector<SceneObject>& objects,
                  std::uint64_t seed, int n_threads) {
   const Ground ground = make_ground(meshes, objects);
-  Judge judge{ground, meshes, {}, {}};
+  Judge judge{ground, make_grid(kParkArea, kCellSize), meshes, {}, {}};
   for (const SceneMesh& mesh : meshes) {
     judge.near_samples.push_back(sample_surface(mesh.mesh, kNearSamples));
     judge.far_samples.push_back(sample_surface(mesh.mesh, kFarSamples));
