@@ -61,9 +61,21 @@ std::vector<bool> find_back_faces(const BakeScene& bake, CellId cell, const Scen
                                   const std::vector<Triangle>& triangles) {
   if (bake.scene.materials[static_cast<std::size_t>(object.material)].double_sided)
     return std::vector<bool>(triangles.size(), false);  // both sides are seen
-  TriMesh world;
-  world.positions = positions;
-  return find_regional_back_faces(world, triangles, prism_of(bake.cells, cell));
+  return find_regional_back_faces(positions, triangles, prism_of(bake.cells, cell));
+}
+
+// Whether the object as captured from the cell's centre alone leaves no hole of T_s or more.
+bool needs_one_view(const BakeScene& bake, CellId cell, const CellObject& object,
+                    const BakeOptions& options) {
+  const glm::dvec3 centre = ball_of(bake.cells, cell).centre;
+  const std::vector<glm::vec3>& positions = object.vertices.positions;
+  const std::vector<glm::dvec3> points(positions.begin(), positions.end());
+  if (!choose_view(centre, points, {.resolution_px = options.resolution_px})) return false;
+  const ObjectDepth depth =
+      measure_depth(centre, positions, object.level->mesh.triangles, object.is_back_facing);
+  const double s = self_occluding_error_px(bake.cells.grid.size, depth.nearest, depth.depth,
+                                           options.resolution_px);
+  return s < options.ts_px;
 }
 
 // Points spread evenly over the cell's hexagon, at the eye's middle height.
@@ -130,36 +142,31 @@ BakeScene build_bake_scene(const Scene& scene, const CellSet& cells, int n_threa
   return bake;
 }
 
-Representation choose_representation(const BakeScene& bake, CellId cell, ObjectId id,
-                                     const BakeOptions& options) {
-  if (is_inside(bake.cells, cell, id)) return Representation::inside;
+CellObject choose_representation(const BakeScene& bake, CellId cell, ObjectId id,
+                                 const BakeOptions& options) {
+  CellObject out;
+  out.object = id;
+  if (is_inside(bake.cells, cell, id)) return out;
   const SceneObject& object = bake.scene.objects[index(id)];
-  const StartLevel& level = choose_start(bake, cell, id, options);
-  const ViewVertices placed = place_vertices(level.mesh, object);
-  const Ball ball = ball_of(bake.cells, cell);
-  const std::vector<glm::dvec3> points(placed.positions.begin(), placed.positions.end());
-  if (!choose_view(ball.centre, points, {.resolution_px = options.resolution_px}))
-    return Representation::multi_view;
-  const auto back = find_back_faces(bake, cell, object, placed.positions, level.mesh.triangles);
-  const ObjectDepth depth =
-      measure_depth(ball.centre, placed.positions, level.mesh.triangles, back);
-  const double s = self_occluding_error_px(bake.cells.grid.size, depth.nearest, depth.depth,
-                                           options.resolution_px);
-  return s < options.ts_px ? Representation::single_view : Representation::multi_view;
+  out.level = &choose_start(bake, cell, id, options);
+  const std::vector<Triangle>& triangles = out.level->mesh.triangles;
+  out.vertices = place_vertices(out.level->mesh, object);
+  out.is_back_facing = find_back_faces(bake, cell, object, out.vertices.positions, triangles);
+  out.kind = needs_one_view(bake, cell, out, options) ? Representation::single_view
+                                                      : Representation::multi_view;
+  return out;
 }
 
-CellMesh derive_mesh(const BakeScene& bake, CellId cell, ObjectId id, Representation kind,
+CellMesh derive_mesh(const BakeScene& bake, CellId cell, CellObject object,
                      std::span<const ClassifiedView> views, const BakeOptions& options,
                      CellMeshCounts& counts) {
-  VIEWCELL_CHECK(kind != Representation::inside);
-  const SceneObject& object = bake.scene.objects[index(id)];
-  const StartLevel& level = choose_start(bake, cell, id, options);
-  const std::vector<Triangle>& start = level.mesh.triangles;
-  ViewVertices vertices = place_vertices(level.mesh, object);
-  const auto back = find_back_faces(bake, cell, object, vertices.positions, start);
-  weigh_vertices(start, back, views, options.weights, vertices);
+  VIEWCELL_CHECK(object.kind != Representation::inside && object.level);
+  const SceneObject& placed = bake.scene.objects[index(object.object)];
+  const std::vector<Triangle>& start = object.level->mesh.triangles;
+  ViewVertices& vertices = object.vertices;
+  weigh_vertices(start, object.is_back_facing, views, options.weights, vertices);
 
-  const ViewMetricOptions metric_options = make_metric_options(bake, cell, kind, options);
+  const ViewMetricOptions metric_options = make_metric_options(bake, cell, object.kind, options);
   CollapseMesh work(vertices.positions, start);
   ViewMetric metric(vertices, start, metric_options);
   CollapseLoop loop(work, metric);
@@ -168,11 +175,12 @@ CellMesh derive_mesh(const BakeScene& bake, CellId cell, ObjectId id, Representa
   const std::vector<Triangle> left = work.triangles();
   for (std::uint32_t v = 0; v < vertices.positions.size(); ++v)
     if (work.has_triangles(v)) vertices.positions[v] += metric.offset(v) * vertices.normals[v];
-  CellMesh out = gather(vertices, level.source_vertex, left,
-                        find_back_faces(bake, cell, object, vertices.positions, left));
-  out.object = id;
-  counts.n_original = bake.scene.mesh_of(object).mesh.triangles.size();
+  CellMesh out = gather(vertices, object.level->source_vertex, left,
+                        find_back_faces(bake, cell, placed, vertices.positions, left));
+  out.object = object.object;
+  counts.n_original = bake.scene.mesh_of(placed).mesh.triangles.size();
   counts.n_start = start.size();
+  const std::vector<bool>& back = object.is_back_facing;
   counts.n_back_facing = static_cast<std::size_t>(std::count(back.begin(), back.end(), true));
   counts.n_out = out.triangles.size();
   return out;

@@ -41,10 +41,20 @@ struct BakeScene {
 /// Builds the levels of every mesh: some seconds for a million triangles.
 BakeScene build_bake_scene(const Scene& scene, const CellSet& cells, int n_threads);
 
+/// What stands for an object in a cell and, outside it, what choosing that took: the mesh starts
+/// from the same.
+struct CellObject {
+  ObjectId object{};
+  Representation kind = Representation::inside;
+  const StartLevel* level = nullptr;  ///< of the BakeScene; null inside, where the rest is empty
+  ViewVertices vertices;              ///< the level's, world; no weights, no views yet
+  std::vector<bool> is_back_facing;   ///< by triangle of the level: to the whole cell
+};
+
 /// Inside the cell, or one view where the self-occluding error is below T_s, else several. Every
 /// object of a cell is exactly one of them, whoever asks.
-Representation choose_representation(const BakeScene& bake, CellId cell, ObjectId object,
-                                     const BakeOptions& options);
+CellObject choose_representation(const BakeScene& bake, CellId cell, ObjectId object,
+                                 const BakeOptions& options);
 
 /// The mesh of one object for one cell, world space.
 struct CellMesh {
@@ -63,12 +73,13 @@ struct CellMeshCounts {
   CollapseCounts collapses;
 };
 
-/// Follows: [Chen06 5.2.1], SVMesh with the views' first alone, MVMesh with all that see the
-/// object. Differs: triangles that are back-facing to the whole cell are culled after collapsing,
-/// not before, so that the rim of what is left is an edge loop of a closed surface and not the
-/// ragged border of the facing triangles; and an SVMesh keeps what faces any point of the cell, not
-/// its centre alone (no holes at silhouettes when the eye leaves the centre).
-CellMesh derive_mesh(const BakeScene& bake, CellId cell, ObjectId object, Representation kind,
+/// object: of choose_representation, outside. Follows: [Chen06 5.2.1], SVMesh with the views' first
+/// alone, MVMesh with all that see the object. Differs: triangles that are back-facing to the whole
+/// cell are culled after collapsing, not before, so that the rim of what is left is an edge loop of
+/// a closed surface and not the ragged border of the facing triangles; and an SVMesh keeps what
+/// faces any point of the cell, not its centre alone (no holes at silhouettes when the eye leaves
+/// the centre).
+CellMesh derive_mesh(const BakeScene& bake, CellId cell, CellObject object,
                      std::span<const ClassifiedView> views, const BakeOptions& options,
                      CellMeshCounts& counts);
 

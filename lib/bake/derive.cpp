@@ -44,10 +44,11 @@ WeightedMeshes derive_cell(const BakeScene& bake, const std::filesystem::path& c
     centres.emplace_back(capture_file_of(captures, ids[k]), settings);
   WeightedMeshes out{kind, cell, settings.key(), "", {}};
   for (std::size_t o = 0; o < bake.scene.objects.size(); ++o) {
-    if (choose_representation(bake, cell, ObjectId(o), options) != kind) continue;
+    CellObject object = choose_representation(bake, cell, ObjectId(o), options);
+    if (object.kind != kind) continue;
     const auto views = read_views(centres, ObjectId(o), options.categories);
     CellMeshCounts mesh_counts;
-    out.meshes.push_back(derive_mesh(bake, cell, ObjectId(o), kind, views, options, mesh_counts));
+    out.meshes.push_back(derive_mesh(bake, cell, std::move(object), views, options, mesh_counts));
     ++counts.n_meshes;
     counts.n_unseen += views.empty();
     add_counts(mesh_counts, counts.triangles);

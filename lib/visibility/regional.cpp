@@ -17,11 +17,12 @@ bool is_back_facing(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& 
   });
 }
 
-std::vector<bool> find_regional_back_faces(const TriMesh& mesh, std::span<const Triangle> triangles,
+std::vector<bool> find_regional_back_faces(std::span<const glm::vec3> positions,
+                                           std::span<const Triangle> triangles,
                                            std::span<const glm::dvec3> region) {
   std::vector<bool> back(triangles.size());
   for (std::size_t t = 0; t < triangles.size(); ++t) {
-    const auto corner = [&](std::size_t k) { return glm::dvec3(mesh.positions[triangles[t][k]]); };
+    const auto corner = [&](std::size_t k) { return glm::dvec3(positions[triangles[t][k]]); };
     back[t] = is_back_facing(corner(0), corner(1), corner(2), region);
   }
   return back;

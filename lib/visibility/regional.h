@@ -21,7 +21,8 @@ bool is_back_facing(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& 
                     std::span<const glm::dvec3> region, double margin = 1e-5);
 
 /// One flag a triangle. Valid for single-sided materials only: of others both sides are seen.
-std::vector<bool> find_regional_back_faces(const TriMesh& mesh, std::span<const Triangle> triangles,
+std::vector<bool> find_regional_back_faces(std::span<const glm::vec3> positions,
+                                           std::span<const Triangle> triangles,
                                            std::span<const glm::dvec3> region);
 
 }  // namespace viewcell

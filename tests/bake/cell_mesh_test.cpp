@@ -25,12 +25,22 @@ struct Derived {
   CellMeshCounts counts;
 };
 
+// The object's mesh as of that kind, whatever would be chosen.
+CellMesh derive_as(Representation kind, CellId cell, ObjectId object,
+                   std::span<const ClassifiedView> views, const BakeOptions& options,
+                   CellMeshCounts& counts) {
+  const BakeScene& bake = shared_bake().bake;
+  CellObject chosen = choose_representation(bake, cell, object, options);
+  chosen.kind = kind;
+  return derive_mesh(bake, cell, std::move(chosen), views, options, counts);
+}
+
 Derived derive(CellId cell, ObjectId object, Representation kind, const BakeOptions& options) {
   const SmallBake& small = shared_bake();
   static const RayCapture rays(small.scene, 2);
   Derived out;
-  out.mesh = derive_mesh(small.bake, cell, object, kind,
-                         views_of_object(small, rays, cell, object, kind), options, out.counts);
+  out.mesh = derive_as(kind, cell, object, views_of_object(small, rays, cell, object, kind),
+                       options, out.counts);
   return out;
 }
 
@@ -41,7 +51,7 @@ void for_each_outside(const Visit& visit) {
   for (const CellId cell : small.list)
     for (std::size_t o = 0; o < small.scene.objects.size(); ++o) {
       const Representation kind =
-          choose_representation(small.bake, cell, ObjectId(o), small.options);
+          choose_representation(small.bake, cell, ObjectId(o), small.options).kind;
       if (kind != Representation::inside) visit(cell, ObjectId(o), kind);
     }
 }
@@ -197,7 +207,7 @@ TEST(CellMesh, MultiViewCollapsesKeepCommonViews) {
     const auto views = views_of_object(small, rays, cell, object, kind);
     const auto count = [&](Representation as) {
       CellMeshCounts counts;
-      const CellMesh mesh = derive_mesh(small.bake, cell, object, as, views, small.options, counts);
+      const CellMesh mesh = derive_as(as, cell, object, views, small.options, counts);
       return static_cast<std::size_t>(std::count(mesh.views.begin(), mesh.views.end(), 0));
     };
     n_multi += count(Representation::multi_view);
@@ -223,7 +233,7 @@ TEST(Representation, InsideNearAndFar) {
   double farthest_multi = 0, nearest_single = 1e9;
   for (const CellId cell : small.list)
     for (std::size_t o = 0; o < small.scene.objects.size(); ++o) {
-      const auto kind = choose_representation(small.bake, cell, ObjectId(o), small.options);
+      const auto kind = choose_representation(small.bake, cell, ObjectId(o), small.options).kind;
       EXPECT_EQ(kind == Representation::inside, is_inside(small.cells, cell, ObjectId(o)));
       if (o % 2 != 0) continue;  // of the balls, all alike
       const double d = glm::distance(eye_of(small.cells, views_of(small.cells.grid, cell)[0]),
@@ -244,7 +254,7 @@ TEST(Representation, MoreToleranceMeansMoreSingleViews) {
       bool was_single = false;
       for (const double ts : {0.0, 2.0, 5.0, 10.0, 20.0, 40.0, 1e6}) {
         options.ts_px = ts;
-        const auto kind = choose_representation(small.bake, cell, ObjectId(o), options);
+        const auto kind = choose_representation(small.bake, cell, ObjectId(o), options).kind;
         const bool is_single = kind == Representation::single_view;
         EXPECT_TRUE(is_single || !was_single) << int(cell) << " " << o << " " << ts;
         if (ts == 0) {

@@ -26,8 +26,8 @@ ViewVertices weigh(const TriMesh& mesh, const std::vector<glm::dvec3>& eyes,
     views.push_back(
         *classify_view(scene, rays, ObjectId(0), eyes[k], kDensity, static_cast<int>(k)));
   ViewVertices v = vertices_of(mesh);
-  weigh_vertices(mesh.triangles, find_regional_back_faces(mesh, mesh.triangles, eyes), views,
-                 options, v);
+  weigh_vertices(mesh.triangles, find_regional_back_faces(mesh.positions, mesh.triangles, eyes),
+                 views, options, v);
   return v;
 }
 

@@ -109,7 +109,8 @@ CullingSum compare_items(const TriMesh& mesh, int n_pairs, std::uint64_t seed,
         eye += w * corner, weights += w;
       }
     eye /= weights;
-    const std::vector<bool> culled = find_regional_back_faces(mesh, mesh.triangles, region);
+    const std::vector<bool> culled =
+        find_regional_back_faces(mesh.positions, mesh.triangles, region);
     const Camera camera{eye, glm::normalize(object.translation - eye), 60};
     const std::vector<bool> seen =
         items.find_seen(clip_from_world(camera) * object.matrix_world_from_model(), sum.n_px);

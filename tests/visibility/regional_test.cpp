@@ -122,10 +122,9 @@ TEST(IsBackFacing, DoesNotDependOnTheFrame) {
 }
 
 TEST(FindRegionalBackFaces, OneFlagATriangleOfTheListGiven) {
-  TriMesh mesh;
-  mesh.positions = {{0, 1, 0}, {0, -1, 0}, {0, 0, 1}};
+  const std::vector<glm::vec3> positions{{0, 1, 0}, {0, -1, 0}, {0, 0, 1}};
   const std::vector<Triangle> list{{0, 1, 2}, {0, 2, 1}, {1, 2, 0}, {0, 0, 1}};
-  EXPECT_EQ(find_regional_back_faces(mesh, list, make_prism({10, 0}, 2, -1, 1)),
+  EXPECT_EQ(find_regional_back_faces(positions, list, make_prism({10, 0}, 2, -1, 1)),
             (std::vector<bool>{true, false, true, true}));
 }
 
