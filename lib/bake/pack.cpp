@@ -50,11 +50,9 @@ CellMeshes read_cell_meshes(const Scene& scene, const CellSet& cells, const Pack
   std::vector<int> n_times(scene.objects.size(), 0);
   for (const fs::path& folder : {inputs.svmesh, inputs.mvmesh}) {
     const fs::path file = folder / weighted_mesh_name(cell);
-    WeightedMeshes read = read_weighted_meshes(file, scene);
-    if (read.cell != cell) throw InputError(file.string(), "header", "is of another cell");
     const auto kind =
         folder == inputs.svmesh ? Representation::single_view : Representation::multi_view;
-    if (read.kind != kind) throw InputError(file.string(), "header", "is of the other kind");
+    WeightedMeshes read = read_weighted_meshes(file, scene, kind, cell);
     if (read.captures != captures_key)
       throw InputError(file.string(), "header",
                        "was derived from other captures; run svmesh and mvmesh again");

@@ -1,6 +1,7 @@
 #include "bake/weighted_mesh_file.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cstdio>
 #include <sstream>
 
@@ -23,6 +24,48 @@ std::string comment_value(const PlyDocument& document, const std::string& key) {
     if (comment == key || comment.starts_with(key + " "))
       return comment.substr(std::min(comment.size(), key.size() + 1));
   throw InputError(document.file, "header", "has no comment '" + key + "'");
+}
+
+Representation parse_kind(const PlyDocument& document) {
+  const std::string text = comment_value(document, "kind");
+  for (const auto kind : {Representation::single_view, Representation::multi_view})
+    if (text == kind_name(kind)) return kind;
+  throw InputError(document.file, "header",
+                   "its comment 'kind' says '" + text + "', neither svmesh nor mvmesh");
+}
+
+CellId parse_cell(const PlyDocument& document) {
+  const std::string text = comment_value(document, "cell");
+  const char* last = text.data() + text.size();
+  std::int32_t number = -1;
+  const auto [end, error] = std::from_chars(text.data(), last, number);
+  if (error == std::errc() && end == last && number >= 0) return CellId(number);
+  throw InputError(document.file, "header",
+                   "its comment 'cell' says '" + text + "', which is no cell's number");
+}
+
+// What the comments say of the meshes.
+WeightedMeshes parse_header(const PlyDocument& document) {
+  if (document.comments.empty() || document.comments[0] != kTitle)
+    throw InputError(document.file, "header", "is not a file of weighted meshes");
+  return {parse_kind(document),
+          parse_cell(document),
+          comment_value(document, "captures"),
+          comment_value(document, "made_from"),
+          {}};
+}
+
+void check_kind_and_cell(const std::filesystem::path& file, const WeightedMeshes& found,
+                         Representation kind, CellId cell) {
+  if (found.kind != kind)
+    throw InputError(file.string(), "header",
+                     std::string("is of the other kind: its comment 'kind' says ") +
+                         kind_name(found.kind) + ", not " + kind_name(kind));
+  if (found.cell != cell)
+    throw InputError(file.string(), "header",
+                     "is of another cell: its comment 'cell' says " +
+                         std::to_string(index(found.cell)) + ", not " +
+                         std::to_string(index(cell)));
 }
 
 // All columns of all meshes, one after another.
@@ -188,27 +231,31 @@ void write_weighted_meshes(const std::filesystem::path& file, const WeightedMesh
 
 WeightedMeshes read_weighted_meshes(const std::filesystem::path& file, const Scene& scene) {
   const PlyDocument document = parse_ply(read_file(file), file.string());
-  if (document.comments.empty() || document.comments[0] != kTitle)
-    throw InputError(file.string(), "header", "is not a file of weighted meshes");
-  WeightedMeshes out;
-  out.kind = comment_value(document, "kind") == "svmesh" ? Representation::single_view
-                                                         : Representation::multi_view;
-  out.captures = comment_value(document, "captures");
-  out.made_from = comment_value(document, "made_from");
-  out.cell = CellId(std::atoi(comment_value(document, "cell").c_str()));
+  WeightedMeshes out = parse_header(document);
   out.meshes = MeshSplitter(document, scene).split(scene);
   add_empty_meshes(document, scene, out.meshes);
   return out;
 }
 
-std::string made_from_of(const std::filesystem::path& file) {
+WeightedMeshes read_weighted_meshes(const std::filesystem::path& file, const Scene& scene,
+                                    Representation kind, CellId cell) {
+  WeightedMeshes out = read_weighted_meshes(file, scene);
+  check_kind_and_cell(file, out, kind, cell);
+  return out;
+}
+
+bool is_derived(const std::filesystem::path& file, Representation kind, CellId cell,
+                const std::string& made_from) {
   std::error_code ignored;
-  if (!std::filesystem::exists(file, ignored)) return "";
+  if (!std::filesystem::exists(file, ignored)) return false;
+  WeightedMeshes found;
   try {
-    return comment_value(parse_ply(read_file(file), file.string()), "made_from");
+    found = parse_header(parse_ply(read_file(file), file.string()));
   } catch (const InputError&) {
-    return "";  // damaged: derived again
+    return false;  // damaged: derived again
   }
+  check_kind_and_cell(file, found, kind, cell);
+  return found.made_from == made_from;
 }
 
 }  // namespace viewcell

@@ -25,11 +25,17 @@ std::string weighted_mesh_name(CellId cell);
 void write_weighted_meshes(const std::filesystem::path& file, const WeightedMeshes& meshes,
                            const std::string& provenance);
 
-/// Checks every index against the scene: objects, source vertices, vertex ranges of one object.
+/// Checks what the header says, and every index against the scene: objects, source vertices, vertex
+/// ranges of one object. Throws InputError (file, place).
 WeightedMeshes read_weighted_meshes(const std::filesystem::path& file, const Scene& scene);
 
-/// The made_from of an existing whole file, or empty when there is none: such a file is not derived
-/// again.
-std::string made_from_of(const std::filesystem::path& file);
+/// The same, which must be those of that kind and cell.
+WeightedMeshes read_weighted_meshes(const std::filesystem::path& file, const Scene& scene,
+                                    Representation kind, CellId cell);
+
+/// Whether the file is there, whole and of that made_from: such a file is not derived again. Throws
+/// InputError when it holds another kind or another cell, which writing would destroy.
+bool is_derived(const std::filesystem::path& file, Representation kind, CellId cell,
+                const std::string& made_from);
 
 }  // namespace viewcell

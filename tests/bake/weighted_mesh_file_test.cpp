@@ -70,7 +70,8 @@ TEST(WeightedMeshFile, ReadsBackWhatWasWritten) {
   EXPECT_EQ(weighted_mesh_name(CellId(12)), "cell-00012.ply");
   WeightedMeshes meshes = make_meshes();
   expect_same(f.write_and_read(meshes), meshes);
-  EXPECT_EQ(made_from_of(f.file), "8899aabb");
+  EXPECT_TRUE(is_derived(f.file, meshes.kind, meshes.cell, "8899aabb"));
+  EXPECT_FALSE(is_derived(f.file, meshes.kind, meshes.cell, "8899aabc"));
   meshes.kind = Representation::single_view;
   expect_same(f.write_and_read(meshes), meshes);
   meshes.meshes.clear();
@@ -129,6 +130,45 @@ TEST(WeightedMeshFile, TheListOfObjectsMustFitTheFaces) {
     EXPECT_INPUT_ERROR(read_weighted_meshes(with(list), f.scene), "");
 }
 
+TEST(WeightedMeshFile, TheHeaderSaysAKindAndACell) {
+  const Folder f;
+  write_weighted_meshes(f.file, make_meshes(), "test");
+  const std::string bytes = read_file(f.file);
+  const auto changed = [&](const std::string& from, const std::string& to) {
+    return f.folder.add("changed.ply", replaced(bytes, from, to));
+  };
+  for (const char* kind : {"mvmeshes", "Mvmesh", "svmesh mvmesh", ""}) {
+    const auto file = changed("kind mvmesh", std::string("kind ") + kind);
+    EXPECT_INPUT_ERROR(read_weighted_meshes(file, f.scene),
+                       "changed.ply: header: its comment 'kind' says '" + std::string(kind) + "'");
+    EXPECT_FALSE(is_derived(file, Representation::multi_view, CellId(12), "8899aabb")) << kind;
+  }
+  for (const char* cell : {"-12", "12a", "a", "", "1 2", "99999999999", "0x12", "+12"})
+    EXPECT_INPUT_ERROR(
+        read_weighted_meshes(changed("cell 12", std::string("cell ") + cell), f.scene),
+        "changed.ply: header: its comment 'cell' says '" + std::string(cell) + "'");
+}
+
+// Neither is another's file read for the one asked for, nor is it written over.
+TEST(WeightedMeshFile, OtherKindsAndCellsAreRefusedByName) {
+  const Folder f;
+  write_weighted_meshes(f.file, make_meshes(), "test");
+  const auto kind = Representation::multi_view, other_kind = Representation::single_view;
+  expect_same(read_weighted_meshes(f.file, f.scene, kind, CellId(12)), make_meshes());
+  const char* kind_message =
+      "cell-00012.ply: header: is of the other kind: its comment 'kind' says "
+      "mvmesh, not svmesh";
+  const char* cell_message =
+      "cell-00012.ply: header: is of another cell: its comment 'cell' says "
+      "12, not 13";
+  EXPECT_INPUT_ERROR(read_weighted_meshes(f.file, f.scene, other_kind, CellId(12)), kind_message);
+  EXPECT_INPUT_ERROR(read_weighted_meshes(f.file, f.scene, kind, CellId(13)), cell_message);
+  for (const char* made_from : {"8899aabb", ""}) {
+    EXPECT_INPUT_ERROR(is_derived(f.file, other_kind, CellId(12), made_from), kind_message);
+    EXPECT_INPUT_ERROR(is_derived(f.file, kind, CellId(13), made_from), cell_message);
+  }
+}
+
 TEST(WeightedMeshFile, DamagedFilesAreRefusedOrSound) {
   const Folder f;
   write_weighted_meshes(f.file, make_meshes(), "test");
@@ -153,8 +193,9 @@ TEST(WeightedMeshFile, DamagedFilesAreRefusedOrSound) {
 
 TEST(WeightedMeshFile, MissingAndForeignFilesHaveNoOrigin) {
   const Folder f;
-  EXPECT_EQ(made_from_of(f.file), "");
-  EXPECT_EQ(made_from_of(f.folder.add("other.ply", "ply\nformat ascii 1.0\nend_header\n")), "");
+  const auto other = f.folder.add("other.ply", "ply\nformat ascii 1.0\nend_header\n");
+  for (const auto& file : {f.file, other})
+    EXPECT_FALSE(is_derived(file, Representation::multi_view, CellId(12), "")) << file;
   EXPECT_INPUT_ERROR(read_weighted_meshes(f.folder.path() / "other.ply", f.scene), "weighted");
   EXPECT_INPUT_ERROR(read_weighted_meshes(f.file, f.scene), "");
 }

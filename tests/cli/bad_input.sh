@@ -206,6 +206,10 @@ cp -r sv bad
 mesh=bad/cell-00000.ply
 cp sv/cell-00001.ply $mesh
 pack_fault "$mesh: header: is of another cell" bad mv 0
+fault 1 "$mesh: header: is of another cell: its comment 'cell' says 1, not 0" \
+  "$bin/svmesh" park/scene.json cells.json captures --cells 0 -o bad
+fault 1 "sv/cell-00000.ply: header: is of the other kind: its comment 'kind' says svmesh, not mvmesh" \
+  "$bin/mvmesh" park/scene.json cells.json captures -o sv
 for bytes in 0 200 700 900; do
   head -c $bytes sv/cell-00000.ply >$mesh
   pack_fault "$mesh" bad mv 0

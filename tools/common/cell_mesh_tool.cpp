@@ -89,7 +89,7 @@ int run(const Tool& tool, Representation kind, Options& options) {
   std::size_t n_kept = 0;
   const auto derive = [&](std::size_t i) {
     const std::filesystem::path file = folder / weighted_mesh_name(list[i]);
-    const bool is_there = made_from_of(file) == key;
+    const bool is_there = is_derived(file, kind, list[i], key);
     DeriveCounts counts;
     if (!is_there) {
       WeightedMeshes meshes =
