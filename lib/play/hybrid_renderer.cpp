@@ -5,6 +5,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/type_ptr.hpp>
 
+#include "base/error.h"
 #include "play/hybrid_shaders.h"
 
 namespace viewcell {
@@ -19,9 +20,6 @@ struct HybridRenderer::DrawBlock {
 };
 
 namespace {
-
-constexpr glm::vec3 kSingleViewColor{0.35f, 0.08f, 0.45f};
-constexpr glm::vec3 kMultiViewColor{0.05f, 0.18f, 0.60f};
 
 std::size_t uniform_alignment(const Gl& gl) {
   GLint alignment = 256;
@@ -39,6 +37,18 @@ glm::vec3 middle_of(const ReadyObject& object) {
 }
 
 }  // namespace
+
+glm::vec3 kind_color(Representation kind) {
+  switch (kind) {
+    case Representation::inside:
+      return {0.55f, 0.5f, 0.42f};
+    case Representation::single_view:
+      return {0.35f, 0.08f, 0.45f};
+    case Representation::multi_view:
+      return {0.05f, 0.18f, 0.60f};
+  }
+  throw_bug(__FILE__, __LINE__, "a Representation", static_cast<int>(kind));
+}
 
 float depth_tolerance(const ViewProjection& view, const glm::vec3& eye, const glm::vec3& middle,
                       const HybridOptions& options) {
@@ -71,13 +81,11 @@ void HybridRenderer::upload_blocks(const ResidentCell& cell, const HybridPlan& p
   const auto stage = [&](const HybridDraw& draw) {
     const ReadyObject& ready = cell.ready->objects[draw.slot];
     const SceneObject& object = scene_.objects[index(ready.object)];
-    const glm::vec3 kind_color =
-        ready.kind == Representation::single_view ? kSingleViewColor : kMultiViewColor;
     DrawBlock block;
     block.base_color =
         glm::vec4(style == HybridStyle::textured
                       ? scene_.materials[static_cast<std::size_t>(object.material)].base_color
-                      : kind_color,
+                      : kind_color(ready.kind),
                   1);
     block.weights = {draw.views.weight[0], draw.views.weight[1], 0, 0};
     for (std::size_t i = 0; i < 2; ++i) {

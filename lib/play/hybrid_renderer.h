@@ -12,6 +12,9 @@ enum class HybridStyle {
   wireframe,  ///< kinds, with edges
 };
 
+/// In pictures of kinds: what stands for an object (linear).
+glm::vec3 kind_color(Representation kind);
+
 struct HybridOptions {
   /// A texel counts for a fragment when their depths differ by at most this share of the object's
   /// depth range (others are texels of another layer), or by so little that the eye and the view

@@ -1,33 +1,11 @@
 #include "play/player.h"
 
 #include <chrono>
+#include <optional>
 
 #include "base/error.h"
 
 namespace viewcell {
-namespace {
-
-constexpr const char* kModeNames[] = {
-    "geometry",           "frustum",          "lod", "hybrid", "raycast", "lod-equal",
-    "geometry-two-sided", "frustum-two-sided"};
-
-// The bundle's grey-and-original style for objects inside the cell in pictures of kinds.
-const glm::vec3 kOriginalColor{0.55f, 0.5f, 0.42f};
-
-}  // namespace
-
-Mode parse_mode(const std::string& name) {
-  for (std::size_t i = 0; i < std::size(kModeNames); ++i)
-    if (name == kModeNames[i]) return static_cast<Mode>(i);
-  std::string names;
-  for (const char* known : kModeNames) names += (names.empty() ? "" : ", ") + std::string(known);
-  throw UsageError("'" + name + "' is no mode: " + names);
-}
-
-const char* mode_name(Mode mode) {
-  return kModeNames[static_cast<std::size_t>(mode)];
-}
-
 Player::Player(const Bundle& bundle, const PlayerOptions& options)
     : bundle_(bundle),
       options_(options),
@@ -57,7 +35,7 @@ DrawnFrame Player::draw_hybrid(const Camera& camera, HybridStyle style) {
       plan_hybrid(plan_scene_, bundle_.cells(), *cell.ready, cell.views, camera);
   scene_renderer_.draw_background(target_, clip_from_world(camera));
   DrawStyle inside_style;
-  if (style != HybridStyle::textured) inside_style.base_color = kOriginalColor;
+  if (style != HybridStyle::textured) inside_style.base_color = kind_color(Representation::inside);
   const std::size_t n_inside = scene_renderer_.draw_clusters(camera, plan.inside, inside_style);
   hybrid_renderer_.draw(camera, cell, residency_.texel_texture(), plan, style);
   hybrid_camera_ = camera;
@@ -74,49 +52,38 @@ std::size_t Player::count_hybrid(const Camera& camera) {
 }
 
 DrawnFrame Player::draw(Mode mode, const Camera& camera) {
-  FramePlan lod_equal;  // made before the clock starts: a user would choose an error, not a count
-  if (mode == Mode::lod_equal) {
-    lod_equal = plan_lod_within(plan_scene_, camera, options_.height_px, count_hybrid(camera));
+  const ModeRow& row = row_of(mode);
+  PlanInputs inputs{plan_scene_, camera, options_.height_px, 0};
+  std::optional<FramePlan> plan;
+  if (row.asks_hybrid) {
+    inputs.n_hybrid_triangles = count_hybrid(camera);
+    plan = row.plan(inputs);
     context_.gl().Finish();
   }
-  const DrawStyle two_sided{.base_color = {}, .cull_back_faces = false};
   const auto start = std::chrono::steady_clock::now();
   DrawnFrame frame;
-  switch (mode) {
-    case Mode::geometry:
-      frame = draw_plan(plan_geometry(plan_scene_), clip_from_world(camera));
+  switch (row.engine) {
+    case ModeEngine::objects:
+      if (!plan) plan = row.plan(inputs);
+      frame = draw_plan(*plan, clip_from_world(camera),
+                        {.base_color = {}, .cull_back_faces = row.culls_back_faces});
       break;
-    case Mode::frustum:
-      frame = draw_plan(plan_frustum(plan_scene_, camera), clip_from_world(camera));
-      break;
-    case Mode::lod:
-      frame = draw_plan(plan_lod(plan_scene_, camera, options_.height_px), clip_from_world(camera));
-      break;
-    case Mode::lod_equal:
-      frame = draw_plan(lod_equal, clip_from_world(camera));
-      break;
-    case Mode::geometry_two_sided:
-      frame = draw_plan(plan_geometry(plan_scene_), clip_from_world(camera), two_sided);
-      break;
-    case Mode::frustum_two_sided:
-      frame = draw_plan(plan_frustum(plan_scene_, camera), clip_from_world(camera), two_sided);
-      break;
-    case Mode::hybrid:
+    case ModeEngine::hybrid:
       frame = draw_hybrid(camera, HybridStyle::textured);
       break;
-    case Mode::raycast:
+    case ModeEngine::rays:
       VIEWCELL_CHECK(ray_caster_ != nullptr);
       ray_caster_->draw(camera, ray_image_);
       break;
   }
-  if (mode != Mode::raycast) context_.gl().Finish();
+  if (row.engine != ModeEngine::rays) context_.gl().Finish();
   const std::chrono::duration<double, std::milli> ms = std::chrono::steady_clock::now() - start;
   frame.ms = ms.count();
   return frame;
 }
 
 ImageRgba8 Player::read(Mode mode) const {
-  return mode == Mode::raycast ? ray_image_ : target_.read_rgba8();
+  return row_of(mode).engine == ModeEngine::rays ? ray_image_ : target_.read_rgba8();
 }
 
 void Player::draw_floor() {

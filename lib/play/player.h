@@ -2,7 +2,6 @@
 #pragma once
 
 #include <memory>
-#include <string>
 #include <vector>
 
 #include "draw/raycast.h"
@@ -10,25 +9,9 @@
 #include "gl/context.h"
 #include "play/floor_quad.h"
 #include "play/hybrid_renderer.h"
+#include "play/modes.h"
 
 namespace viewcell {
-
-/// two_sided: without the culling of back faces by GL. lod_equal: as many triangles as hybrid draws
-/// of the same camera, or fewer.
-enum class Mode {
-  geometry,
-  frustum,
-  lod,
-  hybrid,
-  raycast,
-  lod_equal,
-  geometry_two_sided,
-  frustum_two_sided
-};
-/// "geometry", ... "lod-equal", "geometry-two-sided", "frustum-two-sided"; throws UsageError for
-/// another name.
-Mode parse_mode(const std::string& name);
-const char* mode_name(Mode mode);
 
 struct PlayerOptions {
   int width_px = 1024, height_px = 1024;
@@ -36,8 +19,8 @@ struct PlayerOptions {
   int n_threads = 0;
   ResidencyOptions residency;
   HybridOptions hybrid;
-  bool with_lod = false;      ///< mode lod or lod_equal will be drawn: build its levels
-  bool with_raycast = false;  ///< mode raycast will be drawn: build its hierarchies
+  bool with_lod = false;      ///< a mode that draws levels will be drawn: build them
+  bool with_raycast = false;  ///< a mode of rays will be drawn: build their hierarchies
 };
 
 /// What drawing one frame took. Times are wall clock until the picture is complete; what a mode

@@ -8,17 +8,6 @@ namespace {
 
 constexpr double kMostDbShown = 60;  // above it, nobody sees a difference
 
-// Okabe and Ito 2008: told apart by readers who confuse red and green.
-std::string color_of(const std::string& mode) {
-  if (mode == "geometry") return "#d55e00";
-  if (mode == "frustum") return "#e69f00";
-  if (mode == "lod") return "#009e73";
-  if (mode == "hybrid") return "#0072b2";
-  if (mode == "raycast") return "#cc79a7";
-  if (mode == "lod-equal") return "#56b4e9";
-  return "#000000";
-}
-
 Plot make_plot(const Timeline& timeline, const std::string& title, const std::string& y_label) {
   PlotPanel panel;
   panel.x_label = "time along the path (s)";
@@ -39,9 +28,8 @@ template <typename Value>
 void add_modes(const Timeline& timeline, bool with_reference, Value value, Plot& plot) {
   for (const ModeTimeline& mode : timeline.modes) {
     if (!with_reference && mode.mode == timeline.reference) continue;
-    // Two-sided modes are dashed, in the colour of the one-sided.
-    const std::string base = mode.mode.substr(0, mode.mode.find("-two-sided"));
-    PlotLine line{mode.mode, color_of(base), base != mode.mode, times_of(timeline), {}};
+    const ModeRow& row = row_of(mode.mode);
+    PlotLine line{row.name, row.color, row.is_dashed, times_of(timeline), {}};
     for (const FrameRecord& frame : mode.frames)
       line.y.push_back(static_cast<double>(value(frame)));
     plot.panels[0].lines.push_back(std::move(line));
@@ -77,12 +65,12 @@ void write_plots(const std::filesystem::path& folder, const Timeline& timeline) 
       timeline, true, [](const FrameRecord& f) { return f.n_triangles; }, triangles);
   write_file(folder / "frame_ms.svg", format_svg(time));
   write_file(folder / "triangles.svg", format_svg(triangles));
+  const std::string reference = mode_name(timeline.reference);
   write_file(folder / "psnr.svg",
-             format_svg(make_quality_plot(timeline, "PSNR against " + timeline.reference,
+             format_svg(make_quality_plot(timeline, "PSNR against " + reference,
                                           &PictureQuality::psnr_db)));
   write_file(folder / "psnr_covered.svg",
-             format_svg(make_quality_plot(timeline,
-                                          "PSNR over covered pixels against " + timeline.reference,
+             format_svg(make_quality_plot(timeline, "PSNR over covered pixels against " + reference,
                                           &PictureQuality::psnr_covered_db)));
 }
 

@@ -140,7 +140,7 @@ Timeline start_timeline(const Player& player, const Bundle& bundle, const Camera
   timeline.gl_threads = player.context().n_threads();
   timeline.n_threads =
       player.options().n_threads > 0 ? player.options().n_threads : hardware_threads();
-  timeline.reference = mode_name(options.reference);
+  timeline.reference = options.reference;
   const double start = path.samples.front().time_s;
   const double span = path.samples.back().time_s - start;
   for (std::size_t i = 0; i < cameras.size(); ++i) {
@@ -152,7 +152,7 @@ Timeline start_timeline(const Player& player, const Bundle& bundle, const Camera
       info.cell = static_cast<int>(*cell);
     timeline.frames.push_back(info);
   }
-  for (const Mode mode : options.modes) timeline.modes.push_back({mode_name(mode), {}});
+  for (const Mode mode : options.modes) timeline.modes.push_back({mode, {}});
   return timeline;
 }
 
@@ -174,14 +174,15 @@ Session run_session(Player& player, const Bundle& bundle, const CameraPath& path
   }
   const auto& modes = session.timeline.modes;
   const auto hybrid = std::find_if(modes.begin(), modes.end(), [](const ModeTimeline& mode) {
-    return mode.mode == mode_name(Mode::hybrid);
+    return mode.mode == Mode::hybrid;
   });
   if (hybrid == modes.end()) return session;
   std::vector<SheetRow> rows;
   for (const std::size_t i : choose_sheet_frames(*hybrid, options.n_sheet_rows))
     rows.push_back(comparer.make_row(i, cameras[i]));
-  session.contact_sheet = make_contact_sheet(
-      {mode_name(options.reference), "hybrid", "difference x 8", "MVMesh, SVMesh, original"}, rows);
+  session.contact_sheet = make_contact_sheet({mode_name(options.reference), mode_name(Mode::hybrid),
+                                              "difference x 8", "MVMesh, SVMesh, original"},
+                                             rows);
   return session;
 }
 

@@ -12,8 +12,6 @@
 namespace viewcell {
 namespace {
 
-constexpr const char* kRaycast = "raycast";
-
 using Quality = std::function<const PictureQuality&(std::size_t frame)>;
 
 double percentile(const std::vector<double>& sorted, double p) {
@@ -106,7 +104,8 @@ Json mode_to_json(const Timeline& timeline, const ModeTimeline& mode) {
                {"texture_bytes_mean", mean_of(values_of(mode, &FrameRecord::texture_bytes))},
                {"draws_mean", mean_of(values_of(mode, &FrameRecord::n_draws))},
                {"missing_px_mean", number_or_null(mean_of(missing_px(mode)))}};
-  if (mode.mode == kRaycast) json["rays_per_s"] = rays_per_s(timeline, ms.mean);
+  if (row_of(mode.mode).engine == ModeEngine::rays)
+    json["rays_per_s"] = rays_per_s(timeline, ms.mean);
   return json;
 }
 
@@ -121,13 +120,14 @@ Json frame_to_json(const Timeline& timeline, std::size_t i) {
                {"modes", Json::object()}};
   for (const ModeTimeline& mode : timeline.modes) {
     const FrameRecord& frame = mode.frames[i];
-    json["modes"][mode.mode] = {{"ms", frame.ms},
-                                {"triangles", frame.n_triangles},
-                                {"draws", frame.n_draws},
-                                {"texture_bytes", frame.texture_bytes},
-                                {"psnr_db", number_or_null(frame.quality.psnr_db)},
-                                {"psnr_covered_db", number_or_null(frame.quality.psnr_covered_db)},
-                                {"missing_px", frame.quality.missing_px}};
+    json["modes"][mode_name(mode.mode)] = {
+        {"ms", frame.ms},
+        {"triangles", frame.n_triangles},
+        {"draws", frame.n_draws},
+        {"texture_bytes", frame.texture_bytes},
+        {"psnr_db", number_or_null(frame.quality.psnr_db)},
+        {"psnr_covered_db", number_or_null(frame.quality.psnr_covered_db)},
+        {"missing_px", frame.quality.missing_px}};
   }
   return json;
 }
@@ -139,8 +139,9 @@ Json speedups(const Timeline& timeline) {
   Json json = Json::object();
   for (const ModeTimeline& fast : timeline.modes)
     for (const ModeTimeline& slow : timeline.modes)
-      if (fast.mode == "hybrid" && slow.mode != "hybrid")
-        json[fast.mode + "_over_" + slow.mode] = mean_ms(slow) / mean_ms(fast);
+      if (fast.mode == Mode::hybrid && slow.mode != Mode::hybrid)
+        json[std::string(mode_name(fast.mode)) + "_over_" + mode_name(slow.mode)] =
+            mean_ms(slow) / mean_ms(fast);
   return json;
 }
 
@@ -160,8 +161,8 @@ Json floor_to_json(const Timeline& timeline) {
 void check_timeline(const Timeline& timeline) {
   VIEWCELL_CHECK(!timeline.frames.empty());
   for (const ModeTimeline& mode : timeline.modes)
-    VIEWCELL_CHECK(mode.frames.size() == timeline.frames.size(), mode.mode, mode.frames.size(),
-                   timeline.frames.size());
+    VIEWCELL_CHECK(mode.frames.size() == timeline.frames.size(), mode_name(mode.mode),
+                   mode.frames.size(), timeline.frames.size());
 }
 
 std::string fixed(double x, int n_decimals, bool with_sign = false) {
@@ -171,7 +172,7 @@ std::string fixed(double x, int n_decimals, bool with_sign = false) {
 std::vector<std::string> make_row(const Timeline& timeline, const ModeTimeline& mode) {
   const std::size_t n = mode.frames.size();
   const Summary ms = summarize(values_of(mode, &FrameRecord::ms));
-  std::vector<std::string> row{mode.mode,
+  std::vector<std::string> row{mode_name(mode.mode),
                                fixed(ms.mean, 2),
                                fixed(ms.median, 2),
                                fixed(ms.p95, 2),
@@ -217,7 +218,8 @@ Json make_statistics(const Timeline& timeline) {
   check_timeline(timeline);
   const std::size_t n = timeline.frames.size();
   Json modes = Json::object(), per_frame = Json::array();
-  for (const ModeTimeline& mode : timeline.modes) modes[mode.mode] = mode_to_json(timeline, mode);
+  for (const ModeTimeline& mode : timeline.modes)
+    modes[mode_name(mode.mode)] = mode_to_json(timeline, mode);
   for (std::size_t i = 0; i < n; ++i) per_frame.push_back(frame_to_json(timeline, i));
   return {{"frames", n},
           {"width_px", timeline.width_px},
@@ -225,7 +227,7 @@ Json make_statistics(const Timeline& timeline) {
           {"renderer", timeline.renderer},
           {"gl_threads", timeline.gl_threads},
           {"threads", timeline.n_threads},
-          {"reference", timeline.reference},
+          {"reference", mode_name(timeline.reference)},
           {"modes", modes},
           {"yardstick",
            {{"psnr_db", to_json(summarize_db(n, yardstick_of(timeline), false))},
@@ -251,7 +253,7 @@ std::string format_markdown(const Timeline& timeline) {
                     fixed(frame_mean(timeline, &FrameInfo::luminance_deviation), 1) + " of 255; " +
                     timeline.renderer + ", " + std::to_string(timeline.gl_threads) +
                     " raster threads, raycast on " + std::to_string(timeline.n_threads) +
-                    ". Reference: " + timeline.reference + ".\n\n";
+                    ". Reference: " + mode_name(timeline.reference) + ".\n\n";
   out += format_markdown_table(make_rows(timeline));
   std::string factors;
   const Json speedup = speedups(timeline);  // items() refers to it
@@ -259,8 +261,8 @@ std::string format_markdown(const Timeline& timeline) {
     factors += (factors.empty() ? "" : ", ") + name + " " + fixed(factor.get<double>(), 2);
   if (!factors.empty()) out += "\nSpeedup: " + factors + ".\n";
   for (const ModeTimeline& mode : timeline.modes)
-    if (mode.mode == kRaycast)
-      out += "\nraycast: " +
+    if (row_of(mode.mode).engine == ModeEngine::rays)
+      out += std::string("\n") + mode_name(mode.mode) + ": " +
              fixed(rays_per_s(timeline, mean_of(values_of(mode, &FrameRecord::ms))) / 1e6, 1) +
              " million rays a second.\n";
   return out;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "image/image.h"
+#include "play/modes.h"
 
 namespace viewcell {
 
@@ -44,7 +45,7 @@ struct FrameInfo {
 };
 
 struct ModeTimeline {
-  std::string mode;
+  Mode mode{};
   std::vector<FrameRecord> frames;  ///< one for each of Timeline::frames
 };
 
@@ -52,8 +53,8 @@ struct Timeline {
   int width_px = 0, height_px = 0;
   std::string renderer;
   int gl_threads = 0;
-  int n_threads = 0;      ///< of modes that draw without GL
-  std::string reference;  ///< the mode that the others are compared with
+  int n_threads = 0;               ///< of modes that draw without GL
+  Mode reference = Mode::frustum;  ///< that the others are compared with
   std::vector<FrameInfo> frames;
   std::vector<ModeTimeline> modes;
   std::vector<double> floor_ms;  ///< of FloorQuad, interleaved with the frames; may be empty

@@ -63,19 +63,19 @@ Timeline make_timeline() {
   t.width_px = 100, t.height_px = 50;
   t.renderer = "llvmpipe \"x\"";
   t.gl_threads = 2, t.n_threads = 2;
-  t.reference = "frustum";
+  t.reference = Mode::frustum;
   t.frames = {{0, 3, 0.25, quality(30, 20, 1000, 5)},
               {0.5, 3, 0, quality(100, 100, 0, 0)},
               {1, 4, 0.5, quality(40, 30, 3000, 5)}};
-  t.modes = {{"frustum",
+  t.modes = {{Mode::frustum,
               {{10, 1000, 7, 0, quality(100, 100, 1000, 0)},
                {20, 2000, 8, 0, quality(100, 100, 0, 0)},
                {30, 3000, 9, 0, quality(100, 100, 3000, 0)}}},
-             {"hybrid",
+             {Mode::hybrid,
               {{1, 100, 3, 50, quality(40, 30, 1000, 9)},
                {2, 200, 4, 60, quality(100, 100, 0, 0)},
                {3, 300, 5, 70, quality(100, 100, 3000, 0)}}},
-             {"raycast", {{4, 0, 0, 0, {}}, {5, 0, 0, 0, {}}, {6, 0, 0, 0, {}}}}};
+             {Mode::raycast, {{4, 0, 0, 0, {}}, {5, 0, 0, 0, {}}, {6, 0, 0, 0, {}}}}};
   return t;
 }
 

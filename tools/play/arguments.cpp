@@ -38,11 +38,10 @@ PlayerOptions make_player_options(const Tool& tool, const PlayArguments& o) {
   player.n_threads = tool.common().n_threads;
   player.residency.pool_texels = static_cast<std::uint32_t>(o.texture_mb) << 18;
   player.residency.prefetch = !o.no_prefetch;
-  const auto plays = [&](Mode mode) {
-    return std::find(o.session.modes.begin(), o.session.modes.end(), mode) != o.session.modes.end();
-  };
-  player.with_lod = plays(Mode::lod) || plays(Mode::lod_equal);
-  player.with_raycast = plays(Mode::raycast);
+  for (const Mode mode : o.session.modes) {
+    player.with_lod |= row_of(mode).draws_levels;
+    player.with_raycast |= row_of(mode).engine == ModeEngine::rays;
+  }
   return player;
 }
 
@@ -52,10 +51,7 @@ void declare_arguments(Tool& tool, PlayArguments& o) {
   CLI::App& app = tool.app();
   app.add_option("bundle", o.bundle, "folder of the bundle")->required();
   app.add_option("--path", o.path_file, "path.json")->required();
-  app.add_option("--modes", o.modes,
-                 "of geometry,frustum,lod,hybrid,raycast, "
-                 "lod-equal,geometry-two-sided,frustum-two-sided")
-      ->capture_default_str();
+  app.add_option("--modes", o.modes, "of " + list_modes())->capture_default_str();
   app.add_option("--reference", o.reference, "mode that pictures are compared with")
       ->capture_default_str();
   app.add_option("--frames", o.session.n_frames, "frames over the whole path")
@@ -90,8 +86,8 @@ PlayerOptions finish_arguments(const Tool& tool, PlayArguments& o) {
   o.session.reference = parse_mode(o.reference);
   o.session.with_quality = !o.no_quality;
   const PlayerOptions player = make_player_options(tool, o);
-  if (o.session.reference == Mode::raycast && !player.with_raycast)
-    throw UsageError("--reference: raycast must be among --modes");
+  if (row_of(o.session.reference).engine == ModeEngine::rays && !player.with_raycast)
+    throw UsageError("--reference: " + o.reference + " must be among --modes");
   return player;
 }
 
