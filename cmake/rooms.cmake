@@ -12,7 +12,7 @@ set(VIEWCELL_ROOMS
   "adapt: base image mesh gl uv pm"
   "report: base image mesh formats"
   "scene: base mesh formats"
-  "cells: base mesh scene"
+  "cells: base mesh report scene"
   "park: base mesh formats pm scene cells"
   "visibility: mesh"
   "capture: base rays image gl scene cells"

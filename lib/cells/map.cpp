@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "report/svg.h"
+
 namespace viewcell {
 namespace {
 
@@ -15,14 +17,6 @@ std::string format(const char* pattern, double a, double b = 0) {
 std::string points(const std::vector<glm::dvec2>& polygon) {
   std::string out;
   for (const glm::dvec2& p : polygon) out += format("%.2f,%.2f ", p.x, -p.y);
-  return out;
-}
-
-// Text from a file as XML text.
-std::string escape(const std::string& text) {
-  std::string out;
-  for (const char c : text)
-    out += c == '<' ? "&lt;" : c == '>' ? "&gt;" : c == '&' ? "&amp;" : std::string(1, c);
   return out;
 }
 
@@ -55,7 +49,8 @@ void draw_objects(const Scene& scene, std::string& svg) {
     const SceneObject& object = scene.objects[o];
     svg += std::string("<polygon points='") + points(footprints[o]) + "' fill='" +
            kColors[index(object.mesh) % std::size(kColors)] + "'><title>object " +
-           std::to_string(o) + ": " + escape(scene.mesh_of(object).name) + "</title></polygon>\n";
+           std::to_string(o) + ": " + svg_escape(scene.mesh_of(object).name) +
+           "</title></polygon>\n";
   }
   svg += "</g>\n";
 }
@@ -91,7 +86,7 @@ std::string draw_map(const Scene& scene, const CellSet& cells, const CameraPath*
   svg += format("<text x='%.2f' y='%.2f' font-family='sans-serif' font-size='36'>", lo.x + 20,
                 -lo.y - 20) +
          std::to_string(cells.grid.columns) + " x " + std::to_string(cells.grid.rows) +
-         " cells of size " + format("%g", s) + ", coloured by " + escape(options.figure) +
+         " cells of size " + format("%g", s) + ", coloured by " + svg_escape(options.figure) +
          "</text>\n</svg>\n";
   return svg;
 }

@@ -84,6 +84,8 @@ TEST(DrawMap, NamesAreEscaped) {
   const std::string svg = draw_map(scene, cells, nullptr, {"x < y & z", {}});
   EXPECT_EQ(find_xml_fault(svg), "");
   EXPECT_NE(svg.find("a&lt;b &amp; &lt;/svg&gt;"), std::string::npos);
+  scene.meshes[0].name = "no\x01text\xff";  // neither is XML
+  EXPECT_NE(draw_map(scene, cells, nullptr).find("no text?"), std::string::npos);
 }
 
 }  // namespace
