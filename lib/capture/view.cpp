@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/camera.h"
+
 namespace viewcell {
 namespace {
 
@@ -22,8 +24,8 @@ CaptureView make_view(const glm::dvec3& eye, const glm::dvec3& forward, double f
   CaptureView view;
   view.eye = eye;
   view.forward = forward;
-  view.right = glm::normalize(glm::cross(forward, glm::dvec3(0, 0, 1)));
-  view.up = glm::cross(view.right, forward);
+  const PictureAxes axes = picture_axes(forward);
+  view.right = axes.right, view.up = axes.up;
   view.focal_px = focal_px;
   view.source_px = resolution_px;
   return view;

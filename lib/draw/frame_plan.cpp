@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/error.h"
 
@@ -12,27 +13,11 @@ namespace {
 // floats: 1e-6 of the distance keeps the test conservative for both.
 constexpr double kSlack = 1e-6;
 
-struct Visible {
-  ObjectId object;
-  double distance;
-};
-
-std::vector<Visible> select_visible(const PlanScene& scene, const Camera& camera) {
-  const Frustum frustum = make_frustum(camera);
-  std::vector<Visible> visible;
-  for (std::size_t i = 0; i < scene.objects.size(); ++i) {
-    const SceneObject& object = scene.objects[i];
-    const Box& box = scene.mesh_of(object).box;
-    glm::dvec3 corners[8];
-    make_corners(object, box, corners);
-    if (!may_meet(frustum, corners)) continue;
-    visible.push_back({ObjectId(static_cast<std::int32_t>(i)),
-                       glm::distance(camera.eye, object.world_from_model(box.centre()))});
-  }
-  std::sort(visible.begin(), visible.end(), [](const Visible& a, const Visible& b) {
-    return a.distance != b.distance ? a.distance < b.distance : a.object < b.object;
-  });
-  return visible;
+std::vector<ObjectId> select_all_visible(const PlanScene& scene, const Camera& camera) {
+  std::vector<ObjectId> all;
+  for (std::size_t i = 0; i < scene.objects.size(); ++i)
+    all.push_back(ObjectId(static_cast<std::int32_t>(i)));
+  return select_visible(scene, make_frustum(camera), camera, all);
 }
 
 int choose_level(const std::vector<PlanScene::Level>& levels, double max_error_model) {
@@ -71,9 +56,9 @@ Frustum make_frustum(const Camera& camera) {
            rows[3] - glm::dvec4(0, 0, 0, camera.near)}};
 }
 
-bool may_meet(const Frustum& frustum, const glm::dvec3 (&corners)[8]) {
+bool may_meet(const Frustum& frustum, const BoxCorners& corners) {
   return std::all_of(std::begin(frustum.planes), std::end(frustum.planes), [&](const auto& plane) {
-    return std::any_of(std::begin(corners), std::end(corners), [&](const glm::dvec3& p) {
+    return std::any_of(corners.begin(), corners.end(), [&](const glm::dvec3& p) {
       const glm::dvec4 terms = plane * glm::dvec4(p, 1);
       const glm::dvec4 size = glm::abs(terms);
       return terms.x + terms.y + terms.z + terms.w >= -kSlack * (size.x + size.y + size.z + size.w);
@@ -81,16 +66,45 @@ bool may_meet(const Frustum& frustum, const glm::dvec3 (&corners)[8]) {
   });
 }
 
-void make_corners(const SceneObject& object, const Box& box, glm::dvec3 (&corners)[8]) {
-  for (int i = 0; i < 8; ++i)
-    corners[i] =
-        object.world_from_model({(i & 1) ? box.hi.x : box.lo.x, (i & 2) ? box.hi.y : box.lo.y,
-                                 (i & 4) ? box.hi.z : box.lo.z});
+// The planes are not of unit length.
+bool may_meet(const Frustum& frustum, const glm::dvec3& centre, double radius) {
+  return std::none_of(std::begin(frustum.planes), std::end(frustum.planes), [&](const auto& plane) {
+    return glm::dot(plane, glm::dvec4(centre, 1)) < -radius * glm::length(glm::dvec3(plane));
+  });
+}
+
+BoxCorners make_corners(const Box& box) {
+  BoxCorners corners;
+  for (std::size_t i = 0; i < corners.size(); ++i)
+    corners[i] = {(i & 1) ? box.hi.x : box.lo.x, (i & 2) ? box.hi.y : box.lo.y,
+                  (i & 4) ? box.hi.z : box.lo.z};
+  return corners;
+}
+
+BoxCorners make_corners(const SceneObject& object, const Box& box) {
+  BoxCorners corners = make_corners(box);
+  for (glm::dvec3& p : corners) p = object.world_from_model(p);
+  return corners;
 }
 
 double distance_to_box(const SceneObject& object, const Box& box, const glm::dvec3& point) {
   const glm::dvec3 p = object.model_from_world(point);
   return object.scale * glm::distance(p, glm::clamp(p, box.lo, box.hi));
+}
+
+std::vector<ObjectId> select_visible(const PlanScene& scene, const Frustum& frustum,
+                                     const Camera& camera, std::span<const ObjectId> objects) {
+  std::vector<std::pair<double, ObjectId>> visible;
+  for (const ObjectId id : objects) {
+    const SceneObject& object = scene.objects[index(id)];
+    const Box& box = scene.mesh_of(object).box;
+    if (may_meet(frustum, make_corners(object, box)))
+      visible.emplace_back(glm::distance(camera.eye, object.world_from_model(box.centre())), id);
+  }
+  std::sort(visible.begin(), visible.end());
+  std::vector<ObjectId> out;
+  for (const auto& [distance, id] : visible) out.push_back(id);
+  return out;
 }
 
 FramePlan plan_geometry(const PlanScene& scene) {
@@ -102,8 +116,7 @@ FramePlan plan_geometry(const PlanScene& scene) {
 
 FramePlan plan_frustum(const PlanScene& scene, const Camera& camera) {
   FramePlan plan;
-  for (const Visible& visible : select_visible(scene, camera))
-    add_draw(scene, visible.object, 0, plan);
+  for (const ObjectId id : select_all_visible(scene, camera)) add_draw(scene, id, 0, plan);
   return plan;
 }
 
@@ -111,12 +124,12 @@ FramePlan plan_lod(const PlanScene& scene, const Camera& camera, int height_px,
                    double max_error_px) {
   const double focal_px = 0.5 * height_px / std::tan(glm::radians(camera.fov_y_deg) / 2);
   FramePlan plan;
-  for (const Visible& visible : select_visible(scene, camera)) {
-    const SceneObject& object = scene.objects[index(visible.object)];
+  for (const ObjectId id : select_all_visible(scene, camera)) {
+    const SceneObject& object = scene.objects[index(id)];
     const PlanScene::Mesh& mesh = scene.mesh_of(object);
     const double distance = distance_to_box(object, mesh.box, camera.eye);
     const double max_error_model = max_error_px * distance / focal_px / object.scale;
-    add_draw(scene, visible.object, choose_level(mesh.levels, max_error_model), plan);
+    add_draw(scene, id, choose_level(mesh.levels, max_error_model), plan);
   }
   return plan;
 }

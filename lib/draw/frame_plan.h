@@ -1,7 +1,9 @@
 // What a frame draws, as a pure function of scene, camera and mode.
 #pragma once
 
+#include <array>
 #include <glm/glm.hpp>
+#include <span>
 #include <vector>
 
 #include "draw/mesh_levels.h"
@@ -46,18 +48,25 @@ struct Frustum {
   glm::dvec4 planes[5];
 };
 Frustum make_frustum(const Camera& camera);
-/// Conservative: false only when the whole box lies outside one of the planes.
-bool may_meet(const Frustum& frustum, const glm::dvec3 (&corners)[8]);
+using BoxCorners = std::array<glm::dvec3, 8>;
+/// Conservative: false only when the whole box, or ball, lies outside one of the planes.
+bool may_meet(const Frustum& frustum, const BoxCorners& corners);
+bool may_meet(const Frustum& frustum, const glm::dvec3& centre, double radius);
 
+BoxCorners make_corners(const Box& box);
 /// The corners of an object's box, in the world.
-void make_corners(const SceneObject& object, const Box& box_model, glm::dvec3 (&corners)[8]);
+BoxCorners make_corners(const SceneObject& object, const Box& box_model);
 /// From a point to the nearest point of the object's box, in the world; 0 inside.
 double distance_to_box(const SceneObject& object, const Box& box_model, const glm::dvec3& point);
 
+/// Those of the objects whose boxes meet the camera's frustum, front to back (by the distance of
+/// the box's middle; ties by id).
+std::vector<ObjectId> select_visible(const PlanScene& scene, const Frustum& frustum,
+                                     const Camera& camera, std::span<const ObjectId> objects);
+
 /// Mode `geometry`: every object as it is, in the order of the scene.
 FramePlan plan_geometry(const PlanScene& scene);
-/// Mode `frustum`: the objects whose boxes meet the frustum, front to back (by the distance of the
-/// box's middle; ties by id).
+/// Mode `frustum`: what of the scene select_visible() leaves, in its order.
 FramePlan plan_frustum(const PlanScene& scene, const Camera& camera);
 /// Mode `lod`: as `frustum`, each object at its coarsest level whose error, at the nearest point of
 /// its box, projects to at most max_error_px in a frame of height_px.

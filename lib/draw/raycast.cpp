@@ -28,10 +28,10 @@ struct RayFrame {
 };
 
 RayFrame make_ray_frame(const Camera& camera, int width_px, int height_px) {
-  const glm::dmat3 axes = glm::transpose(glm::dmat3(view_from_world(camera)));
+  const PictureAxes axes = picture_axes(camera.forward);
   const double half = std::tan(glm::radians(camera.fov_y_deg) / 2);
-  const glm::dvec3 right = axes[0] * (2 * half * camera.aspect / width_px);
-  const glm::dvec3 down = -axes[1] * (2 * half / height_px);
+  const glm::dvec3 right = axes.right * (2 * half * camera.aspect / width_px);
+  const glm::dvec3 down = -axes.up * (2 * half / height_px);
   const glm::dvec3 corner = camera.forward - right * (0.5 * width_px) - down * (0.5 * height_px);
   return {glm::vec3(camera.eye), glm::vec3(corner), glm::vec3(right), glm::vec3(down),
           static_cast<float>(camera.near)};

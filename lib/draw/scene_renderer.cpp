@@ -181,17 +181,6 @@ void SceneRenderer::draw_objects(const glm::dmat4& clip_from_world,
   gl_.Enable(GL_CULL_FACE);
 }
 
-namespace {
-
-// A cluster's sphere against the frustum's planes, which are not of unit length.
-bool is_outside(const Frustum& frustum, const glm::dvec3& centre, double radius) {
-  return std::any_of(std::begin(frustum.planes), std::end(frustum.planes), [&](const auto& plane) {
-    return glm::dot(plane, glm::dvec4(centre, 1)) < -radius * glm::length(glm::dvec3(plane));
-  });
-}
-
-}  // namespace
-
 std::size_t SceneRenderer::draw_clusters(const Camera& camera, std::span<const ObjectId> objects,
                                          const DrawStyle& style) const {
   const glm::dmat4 clip = clip_from_world(camera);
@@ -218,8 +207,8 @@ std::size_t SceneRenderer::draw_clusters(const Camera& camera, std::span<const O
     };
     for (const Cluster& cluster : clusters_[index(object.mesh)]) {
       const bool hidden = (!object.double_sided && is_back_facing(cluster, eye_model)) ||
-                          is_outside(frustum, placed.world_from_model(cluster.centre),
-                                     cluster.radius * placed.scale);
+                          !may_meet(frustum, placed.world_from_model(cluster.centre),
+                                    cluster.radius * placed.scale);
       if (hidden) {
         draw_run();
       } else {

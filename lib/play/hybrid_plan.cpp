@@ -21,12 +21,11 @@ double angle_between(const glm::dvec3& a, const glm::dvec3& b) {
 // a vertical direction or nearly.
 double half_azimuth_rad(const Camera& camera) {
   const double up = std::tan(glm::radians(camera.fov_y_deg) / 2), side = up * camera.aspect;
-  const glm::dvec3 right = glm::normalize(glm::cross(camera.forward, glm::dvec3(0, 0, 1)));
-  const glm::dvec3 above = glm::cross(right, camera.forward);
+  const PictureAxes axes = picture_axes(camera.forward);
   const glm::dvec2 ahead = glm::normalize(glm::dvec2(camera.forward));
   double widest = 0;
   for (const double y : {-up, up}) {
-    const glm::dvec2 ray(camera.forward + side * right + y * above);
+    const glm::dvec2 ray(camera.forward + side * axes.right + y * axes.up);
     const double along = glm::dot(ray, ahead);
     if (along < 0.05) return 3.2;
     widest = std::max(widest, std::atan2(std::abs(glm::cross(ray, ahead)), along));
@@ -44,26 +43,6 @@ void sort_front_to_back(std::vector<Ordered>& draws, std::vector<HybridDraw>& ou
     return a.distance != b.distance ? a.distance < b.distance : a.draw.slot < b.draw.slot;
   });
   for (const Ordered& o : draws) out.push_back(o.draw);
-}
-
-void box_corners(const ReadyObject& o, glm::dvec3 (&corners)[8]) {
-  for (int i = 0; i < 8; ++i)
-    corners[i] = {(i & 1) ? o.hi.x : o.lo.x, (i & 2) ? o.hi.y : o.lo.y, (i & 4) ? o.hi.z : o.lo.z};
-}
-
-void plan_inside(const PlanScene& scene, const std::vector<ObjectId>& inside,
-                 const Frustum& frustum, const Camera& camera, HybridPlan& plan) {
-  std::vector<std::pair<double, ObjectId>> visible;
-  for (const ObjectId id : inside) {
-    const SceneObject& object = scene.objects[index(id)];
-    const Box& box = scene.mesh_of(object).box;
-    glm::dvec3 corners[8];
-    make_corners(object, box, corners);
-    if (may_meet(frustum, corners))
-      visible.emplace_back(glm::distance(camera.eye, object.world_from_model(box.centre())), id);
-  }
-  std::sort(visible.begin(), visible.end());
-  for (const auto& [distance, id] : visible) plan.inside.push_back(id);
 }
 
 }  // namespace
@@ -127,10 +106,9 @@ HybridPlan plan_hybrid(const PlanScene& scene, const CellSet& cells, const Ready
   for (std::size_t slot = 0; slot < cell.objects.size(); ++slot) {
     const ReadyObject& o = cell.objects[slot];
     if (o.n_indices == 0 || (o.windows & windows) == 0) continue;
-    glm::dvec3 corners[8];
-    box_corners(o, corners);
-    if (!may_meet(frustum, corners)) continue;
-    const glm::dvec3 middle = 0.5 * (glm::dvec3(o.lo) + glm::dvec3(o.hi));
+    const Box box{glm::dvec3(o.lo), glm::dvec3(o.hi)};
+    if (!may_meet(frustum, make_corners(box))) continue;
+    const glm::dvec3 middle = box.centre();
     const bool is_single = o.kind == Representation::single_view;
     const unsigned available = views[slot] & (is_single ? 1u : 0x7fu);
     const HybridDraw draw{static_cast<std::uint16_t>(slot),
@@ -139,7 +117,7 @@ HybridPlan plan_hybrid(const PlanScene& scene, const CellSet& cells, const Ready
     plan.n_triangles += o.n_indices / 3;
   }
   sort_front_to_back(draws, plan.outside);
-  plan_inside(scene, cells.inside[index(cell.cell)], frustum, camera, plan);
+  plan.inside = select_visible(scene, frustum, camera, cells.inside[index(cell.cell)]);
   return plan;
 }
 

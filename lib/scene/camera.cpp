@@ -39,8 +39,7 @@ glm::dvec3 interpolate_direction(const glm::dvec3& a, const glm::dvec3& b, doubl
 }  // namespace
 
 glm::dmat4 view_from_world(const Camera& camera) {
-  const glm::dvec3 right = glm::normalize(glm::cross(camera.forward, glm::dvec3(0, 0, 1)));
-  const glm::dvec3 up = glm::cross(right, camera.forward);
+  const auto [right, up] = picture_axes(camera.forward);
   const glm::dmat3 rows(right, up, -camera.forward);  // columns; transposed below
   glm::dmat4 view(glm::transpose(rows));
   view[3] = glm::dvec4(-(glm::transpose(rows) * camera.eye), 1);

@@ -23,6 +23,16 @@ struct Camera {
   double near = kNear;
 };
 
+/// What is right and up in a picture taken along forward, which is unit and not vertical: right is
+/// level, up is nearest to z.
+struct PictureAxes {
+  glm::dvec3 right, up;
+};
+inline PictureAxes picture_axes(const glm::dvec3& forward) {
+  const glm::dvec3 right = glm::normalize(glm::cross(forward, glm::dvec3(0, 0, 1)));
+  return {right, glm::cross(right, forward)};
+}
+
 /// Rows: right, up, -forward (OpenGL's eye space: x right, y up, looking along -z).
 glm::dmat4 view_from_world(const Camera& camera);
 /// Reversed, infinite depth in [0, 1]: clip z = near, clip w = distance along forward. Needs
