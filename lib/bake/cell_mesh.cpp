@@ -59,7 +59,7 @@ ViewVertices place_vertices(const TriMesh& mesh, const SceneObject& object) {
 std::vector<bool> find_back_faces(const BakeScene& bake, CellId cell, const SceneObject& object,
                                   const std::vector<glm::vec3>& positions,
                                   const std::vector<Triangle>& triangles) {
-  if (bake.scene.materials[static_cast<std::size_t>(object.material)].double_sided)
+  if (bake.scene.material_of(object).double_sided)
     return std::vector<bool>(triangles.size(), false);  // both sides are seen
   return find_regional_back_faces(positions, triangles, prism_of(bake.cells, cell));
 }

@@ -31,27 +31,23 @@ void main() {
 }
 )";
 
-// shade() of scene/lighting.h. 1/w is affine on the screen and comes without a division: it is the
-// inverse depth, kept where alpha would be.
-constexpr const char* kFragmentSource = R"(#version 450 core
-layout(location = 0) in vec3 normal_world;
-layout(location = 0) out vec4 result;
-uniform vec3 base_color, toward_light, light, ambient_sky, ambient_ground;
-void main() {
-  vec3 n = normalize(normal_world);
-  if (!gl_FrontFacing) n = -n;  // the far side of a double-sided surface; others are culled
-  float lambert = max(dot(n, toward_light), 0.0);
-  vec3 ambient = mix(ambient_ground, ambient_sky, 0.5 + 0.5 * n.z);
-  result = vec4(base_color * (lambert * light + ambient), gl_FragCoord.w);
+// 1/w is affine on the screen and comes without a division: it is the inverse depth, kept where
+// alpha would be.
+std::string fragment_source() {
+  return "#version 450 core\n"
+         "layout(location = 0) in vec3 normal_world;\n"
+         "layout(location = 0) out vec4 result;\n"
+         "uniform vec3 base_color, toward_light, light, ambient_sky, ambient_ground;\n" +
+         make_shade_glsl() +
+         "void main() {\n"
+         "  vec3 n = normalize(normal_world);\n"
+         "  if (!gl_FrontFacing) n = -n;  // the far side of a double-sided surface\n"
+         "  result = vec4(shade(base_color, n), gl_FragCoord.w);\n"
+         "}\n";
 }
-)";
 
 void set_uniform(const Gl& gl, const GlProgram& program, const char* name, const glm::vec3& v) {
   gl.ProgramUniform3fv(program.id(), program.uniform(name), 1, glm::value_ptr(v));
-}
-
-const Material& material_of(const Scene& scene, const SceneObject& object) {
-  return scene.materials[static_cast<std::size_t>(object.material)];
 }
 
 // Copies a block that was read back to its place in the tile.
@@ -84,7 +80,7 @@ glm::dmat4 clip_from_world(const CaptureView& view, const Crop& block) {
 RasterCapture::RasterCapture(const Gl& gl, const Scene& scene)
     : gl_(gl),
       scene_(scene),
-      program_(gl, "capture", kVertexSource, kFragmentSource),
+      program_(gl, "capture", kVertexSource, fragment_source()),
       meshes_(scene.meshes.size()) {
   const Lighting& lighting = scene.lighting;
   set_uniform(gl, program_, "toward_light", lighting.toward_light);
@@ -135,7 +131,7 @@ void RasterCapture::draw_block(CaptureTile& tile, const Crop& block) {
                               glm::value_ptr(clip_from_model));
   gl_.ProgramUniformMatrix3fv(program_.id(), program_.uniform("world_from_model"), 1, GL_FALSE,
                               glm::value_ptr(rotation));
-  set_uniform(gl_, program_, "base_color", material_of(scene_, object).base_color);
+  set_uniform(gl_, program_, "base_color", scene_.material_of(object).base_color);
 
   const GlFramebuffer target(gl_, block.width_px, block.height_px, {GL_RGBA32F});
   check_gl(gl_, "making a framebuffer to capture into");
@@ -143,7 +139,7 @@ void RasterCapture::draw_block(CaptureTile& tile, const Crop& block) {
   target.clear({0, 0, 0, 0});
   program_.use();
   mesh.array.bind();
-  if (material_of(scene_, object).double_sided) gl_.Disable(GL_CULL_FACE);
+  if (scene_.material_of(object).double_sided) gl_.Disable(GL_CULL_FACE);
   gl_.DrawElements(GL_TRIANGLES, mesh.n_indices, GL_UNSIGNED_INT, nullptr);
   gl_.Enable(GL_CULL_FACE);
   store(tile, block, target.read_rgba_float(0));

@@ -18,7 +18,7 @@ RayCapture::RayCapture(const Scene& scene, int n_threads, std::size_t budget_byt
   scenes_->fronts.resize(scene.meshes.size());
   scenes_->both_sides.resize(scene.meshes.size());
   for (const SceneObject& object : scene.objects) {
-    const bool both = scene.materials[static_cast<std::size_t>(object.material)].double_sided;
+    const bool both = scene.material_of(object).double_sided;
     const TriMesh& mesh = scene.mesh_of(object).mesh;
     RayScene& built = scenes_->of(object, both);
     if (!built) built = RayScene(device, mesh.positions, mesh.triangles, {.fronts_only = !both});
@@ -37,7 +37,7 @@ class ObjectCaster {
       : scene_(scene),
         object_(object),
         mesh_(scene.mesh_of(object).mesh),
-        material_(scene.materials[static_cast<std::size_t>(object.material)]),
+        material_(scene.material_of(object)),
         rays_(rays),
         view_(view),
         origin_(object.model_from_world(view.eye)),
@@ -100,7 +100,7 @@ CaptureTile RayCapture::capture(ObjectId id, const CaptureView& view, const Crop
   const SceneObject& object = scene_.objects[index(id)];
   CaptureTile tile{id, view, crop, ImageRgbaFloat(crop.width_px, crop.height_px),
                    Image<float>(crop.width_px, crop.height_px)};
-  const bool both = scene_.materials[static_cast<std::size_t>(object.material)].double_sided;
+  const bool both = scene_.material_of(object).double_sided;
   const ObjectCaster caster(scene_, object, scenes_->of(object, both), view);
   for (int y = 0; y < crop.height_px; y += 4)
     for (int x = 0; x < crop.width_px; x += 4) caster.cast_block(tile, x, y);

@@ -99,7 +99,7 @@ RayCaster::Impl::Impl(const Scene& scene_in, int n_threads_in, std::size_t budge
   sky = encode(scene.lighting.sky_color, 0);
   ground = encode(scene.lighting.ground_color, 0);
   for (const SceneObject& object : scene.objects) {
-    const Material& material = scene.materials[static_cast<std::size_t>(object.material)];
+    const Material& material = scene.material_of(object);
     objects.push_back({&scene.mesh_of(object).mesh, glm::mat3(glm::mat3_cast(object.rotation)),
                        material.base_color, material.double_sided});
   }

@@ -1,7 +1,6 @@
 #include "draw/scene_renderer.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <glm/gtc/matrix_transform.hpp>
@@ -9,16 +8,11 @@
 
 #include "base/error.h"
 #include "draw/ground.h"
+#include "draw/lit_vertex.h"
 #include "draw/shading.h"
 
 namespace viewcell {
 namespace {
-
-struct SceneVertex {
-  glm::vec3 position;
-  std::array<std::int16_t, 4> normal;  // of 32767; the fourth is padding
-};
-static_assert(sizeof(SceneVertex) == 20);
 
 constexpr const char* kObjectVertex = R"(#version 450 core
 layout(location = 0) in vec3 position;
@@ -54,13 +48,6 @@ std::string ground_fragment(const Lighting& lighting) {
          glsl_vec3(srgb_encode(lighting.ground_color)) + ", 0); }\n";
 }
 
-SceneVertex make_vertex(const glm::vec3& position, const glm::vec3& normal) {
-  const auto quantise = [](float x) {
-    return static_cast<std::int16_t>(std::lround(glm::clamp(x, -1.0f, 1.0f) * 32767));
-  };
-  return {position, {quantise(normal.x), quantise(normal.y), quantise(normal.z), 0}};
-}
-
 }  // namespace
 
 SceneRenderer::SceneRenderer(const Gl& gl, const Scene& scene,
@@ -68,7 +55,7 @@ SceneRenderer::SceneRenderer(const Gl& gl, const Scene& scene,
     : gl_(gl), array_(gl), ground_array_(gl) {
   VIEWCELL_CHECK(levels.size() == scene.meshes.size(), levels.size(), scene.meshes.size());
   for (const SceneObject& object : scene.objects) {
-    const Material& material = scene.materials[static_cast<std::size_t>(object.material)];
+    const Material& material = scene.material_of(object);
     scene_objects_.push_back(&object);
     objects_.push_back({object.matrix_world_from_model(),
                         glm::mat3(glm::mat3_cast(object.rotation)), material.base_color,
@@ -91,7 +78,7 @@ SceneRenderer::SceneRenderer(const Gl& gl, const Scene& scene,
 }
 
 void SceneRenderer::upload(const std::vector<MeshLevels>& levels) {
-  std::vector<SceneVertex> vertices;
+  std::vector<LitVertex> vertices;
   std::vector<Triangle> triangles;
   for (const MeshLevels& of_mesh : levels) {
     std::vector<Range>& ranges = ranges_.emplace_back();
@@ -100,7 +87,7 @@ void SceneRenderer::upload(const std::vector<MeshLevels>& levels) {
       ranges.push_back({static_cast<GLsizei>(3 * mesh.triangles.size()),
                         triangles.size() * sizeof(Triangle), static_cast<GLint>(vertices.size())});
       for (std::size_t v = 0; v < mesh.positions.size(); ++v)
-        vertices.push_back(make_vertex(mesh.positions[v], mesh.normals[v]));
+        vertices.push_back(make_lit_vertex(mesh.positions[v], mesh.normals[v]));
       triangles.insert(triangles.end(), mesh.triangles.begin(), mesh.triangles.end());
     }
     ClusteredMesh clustered = build_clusters(of_mesh[0].mesh);
@@ -111,10 +98,10 @@ void SceneRenderer::upload(const std::vector<MeshLevels>& levels) {
   }
   vertices_ = make_buffer(gl_, vertices);
   indices_ = make_buffer(gl_, triangles);
-  gl_.VertexArrayVertexBuffer(array_.id(), 0, vertices_.id(), 0, sizeof(SceneVertex));
+  gl_.VertexArrayVertexBuffer(array_.id(), 0, vertices_.id(), 0, sizeof(LitVertex));
   gl_.VertexArrayElementBuffer(array_.id(), indices_.id());
-  array_.set_attribute(0, 3, GL_FLOAT, GL_FALSE, offsetof(SceneVertex, position));
-  array_.set_attribute(1, 3, GL_SHORT, GL_TRUE, offsetof(SceneVertex, normal));
+  array_.set_attribute(0, 3, GL_FLOAT, GL_FALSE, offsetof(LitVertex, position));
+  array_.set_attribute(1, 3, GL_SHORT, GL_TRUE, offsetof(LitVertex, normal));
 }
 
 SceneRenderer::Program SceneRenderer::make_program(const Lighting& lighting,

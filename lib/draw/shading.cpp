@@ -50,15 +50,9 @@ float quick_srgb_encode(float linear) {
 }
 
 std::string make_shading_glsl(const Lighting& l) {
-  return "vec3 shade(vec3 base_color, vec3 normal) {\n"
-         "  float lambert = max(dot(normal, " +
-         glsl_vec3(l.toward_light) +
-         "), 0.0);\n"
-         "  vec3 ambient = mix(" +
-         glsl_vec3(l.ambient_ground) + ", " + glsl_vec3(l.ambient_sky) +
-         ", 0.5 + 0.5 * normal.z);\n"
-         "  return base_color * (lambert * " +
-         glsl_vec3(l.light) + " + ambient);\n}\n" + srgb_glsl();
+  return make_shade_glsl({glsl_vec3(l.toward_light), glsl_vec3(l.light), glsl_vec3(l.ambient_sky),
+                          glsl_vec3(l.ambient_ground)}) +
+         srgb_glsl();
 }
 
 }  // namespace viewcell

@@ -83,9 +83,8 @@ void HybridRenderer::upload_blocks(const ResidentCell& cell, const HybridPlan& p
     const SceneObject& object = scene_.objects[index(ready.object)];
     DrawBlock block;
     block.base_color =
-        glm::vec4(style == HybridStyle::textured
-                      ? scene_.materials[static_cast<std::size_t>(object.material)].base_color
-                      : kind_color(ready.kind),
+        glm::vec4(style == HybridStyle::textured ? scene_.material_of(object).base_color
+                                                 : kind_color(ready.kind),
                   1);
     block.weights = {draw.views.weight[0], draw.views.weight[1], 0, 0};
     for (std::size_t i = 0; i < 2; ++i) {

@@ -5,10 +5,6 @@
 namespace viewcell {
 namespace {
 
-std::int16_t quantise(double x) {
-  return static_cast<std::int16_t>(std::lround(glm::clamp(x, -1.0, 1.0) * 32767));
-}
-
 // Bit k: a corner of the box lies on or beyond the line of side face k. What an eye in the cell
 // sees through face k lies there, so the test loses nothing.
 std::uint8_t find_windows(const CellSet& cells, CellId cell, const BundleObject& o) {
@@ -47,8 +43,7 @@ ReadyCell make_ready_cell(const Scene& scene, const CellSet& cells, CellId cell,
       const glm::dvec3 n = object.rotation * glm::dvec3(mesh.normals[source]);
       const glm::dvec3 p = object.world_from_model(glm::dvec3(mesh.positions[source])) +
                            kOffsetUnit * g.offsets[v] * n;
-      out.vertices.push_back(
-          {glm::vec3(p - out.origin), {quantise(n.x), quantise(n.y), quantise(n.z), 0}});
+      out.vertices.push_back(make_lit_vertex(glm::vec3(p - out.origin), n));
     }
     for (std::uint32_t k = 0; k < 3 * o.n_triangles; ++k, ++i)
       out.indices.push_back(first_vertex + g.indices[i]);

@@ -6,15 +6,9 @@
 #include <vector>
 
 #include "bundle/bundle.h"
+#include "draw/lit_vertex.h"
 
 namespace viewcell {
-
-/// Positions are relative to the cell's centre eye, so that floats stay exact near it.
-struct HybridVertex {
-  glm::vec3 position;
-  std::int16_t normal[4];  ///< world, of 32767; the fourth is padding
-};
-static_assert(sizeof(HybridVertex) == 20);
 
 struct ReadyObject {
   ObjectId object{};
@@ -28,7 +22,8 @@ struct ReadyCell {
   CellId cell{};
   glm::dvec3 origin{0};
   std::vector<ReadyObject> objects;
-  std::vector<HybridVertex> vertices;
+  /// Relative to origin, the eye at the cell's centre, so that floats stay exact near it.
+  std::vector<LitVertex> vertices;
   std::vector<std::uint32_t> indices;
 };
 

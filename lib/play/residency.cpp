@@ -19,10 +19,10 @@ ResidentCell upload_cell(const Gl& gl, std::shared_ptr<const ReadyCell> ready) {
   cell.vertices = make_buffer(gl, ready->vertices);
   cell.indices = make_buffer(gl, ready->indices);
   cell.array = GlVertexArray(gl);
-  gl.VertexArrayVertexBuffer(cell.array.id(), 0, cell.vertices.id(), 0, sizeof(HybridVertex));
+  gl.VertexArrayVertexBuffer(cell.array.id(), 0, cell.vertices.id(), 0, sizeof(LitVertex));
   gl.VertexArrayElementBuffer(cell.array.id(), cell.indices.id());
-  cell.array.set_attribute(0, 3, GL_FLOAT, GL_FALSE, offsetof(HybridVertex, position));
-  cell.array.set_attribute(1, 3, GL_SHORT, GL_TRUE, offsetof(HybridVertex, normal));
+  cell.array.set_attribute(0, 3, GL_FLOAT, GL_FALSE, offsetof(LitVertex, position));
+  cell.array.set_attribute(1, 3, GL_SHORT, GL_TRUE, offsetof(LitVertex, normal));
   cell.ready = std::move(ready);
   return cell;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <string>
 
 #include "base/srgb.h"
 
@@ -25,6 +26,14 @@ inline glm::vec3 shade(const Lighting& l, const glm::vec3& base_color, const glm
   const glm::vec3 ambient = glm::mix(l.ambient_ground, l.ambient_sky, 0.5f + 0.5f * normal.z);
   return base_color * (lambert * l.light + ambient);
 }
+
+/// What shade() needs of a Lighting, each as GLSL text: a constant, or a uniform's name.
+struct LightingGlsl {
+  std::string toward_light = "toward_light", light = "light";
+  std::string ambient_sky = "ambient_sky", ambient_ground = "ambient_ground";
+};
+/// Declares  vec3 shade(vec3 base_color, vec3 normal);  the twin of shade().
+std::string make_shade_glsl(const LightingGlsl& lighting = {});
 
 glm::vec3 srgb_encode(const glm::vec3& linear);
 }  // namespace viewcell

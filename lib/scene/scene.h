@@ -68,6 +68,9 @@ struct Scene {
   std::string hash;  ///< of what scene.json says (white space aside) and of every mesh file's bytes
 
   const SceneMesh& mesh_of(const SceneObject& object) const { return meshes[index(object.mesh)]; }
+  const Material& material_of(const SceneObject& object) const {
+    return materials[static_cast<std::size_t>(object.material)];
+  }
 };
 
 struct ReadSceneOptions {
