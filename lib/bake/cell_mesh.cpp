@@ -22,7 +22,7 @@ struct Ball {
 
 Ball ball_of(const CellSet& cells, CellId cell) {
   const double half_height = 0.5 * (cells.eye_height.hi - cells.eye_height.lo);
-  return {eye_of(cells, views_of(cells.grid, cell)[0]), std::hypot(cells.grid.size, half_height)};
+  return {eye_of(cells, cell), std::hypot(cells.grid.size, half_height)};
 }
 
 double distance_to(const Box& box, const glm::dvec3& p) {

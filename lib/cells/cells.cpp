@@ -93,6 +93,10 @@ glm::dvec3 eye_of(const CellSet& cells, CentreId centre) {
   return {centre_of(cells.grid, place_of(cells.grid, centre)), cells.eye_height.middle()};
 }
 
+glm::dvec3 eye_of(const CellSet& cells, CellId cell) {
+  return eye_of(cells, views_of(cells.grid, cell)[0]);
+}
+
 CellSet read_cells(const std::filesystem::path& file) {
   const Json json = read_json(file, kFormat, 1);
   const JsonCursor root(json, file);

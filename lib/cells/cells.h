@@ -39,6 +39,8 @@ bool is_inside(const CellSet& cells, CellId cell, ObjectId object);
 std::vector<glm::dvec3> prism_of(const CellSet& cells, CellId cell);
 /// The point that a centre's captures are seen from: mid-height.
 glm::dvec3 eye_of(const CellSet& cells, CentreId centre);
+/// Of the cell's own centre.
+glm::dvec3 eye_of(const CellSet& cells, CellId cell);
 
 /// cells.json, read and written.
 CellSet read_cells(const std::filesystem::path& file);

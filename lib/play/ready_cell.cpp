@@ -26,7 +26,7 @@ ReadyCell make_ready_cell(const Scene& scene, const CellSet& cells, CellId cell,
                           const CellGeometry& g) {
   ReadyCell out;
   out.cell = cell;
-  out.origin = eye_of(cells, views_of(cells.grid, cell)[0]);
+  out.origin = eye_of(cells, cell);
   out.vertices.reserve(g.source_vertices.size());
   out.indices.reserve(g.indices.size());
   std::size_t v = 0, i = 0;

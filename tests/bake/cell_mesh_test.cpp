@@ -57,7 +57,7 @@ void for_each_outside(const Visit& visit) {
 }
 
 glm::dvec3 random_eye(const CellSet& cells, CellId cell, Random& random) {
-  const glm::dvec3 centre = eye_of(cells, views_of(cells.grid, cell)[0]);
+  const glm::dvec3 centre = eye_of(cells, cell);
   const ConvexPolygon corners = corners_of(cells.grid, place_of(cells.grid, cell));
   for (;;) {
     const glm::dvec2 p = glm::dvec2(centre) +
@@ -116,7 +116,7 @@ TEST(CellMesh, VerticesAreTheOriginalsMovedAlongTheirNormals) {
     const CellMesh& mesh = derived.mesh;
     const SceneObject& object = small.scene.objects[index(id)];
     const TriMesh& original = small.scene.mesh_of(object).mesh;
-    const glm::dvec3 centre = eye_of(small.cells, views_of(small.cells.grid, cell)[0]);
+    const glm::dvec3 centre = eye_of(small.cells, cell);
     ASSERT_EQ(mesh.source_vertex.size(), mesh.vertices.positions.size());
     ASSERT_EQ(mesh.views.size(), mesh.triangles.size());
     EXPECT_EQ(mesh.object, id);
@@ -236,8 +236,7 @@ TEST(Representation, InsideNearAndFar) {
       const auto kind = choose_representation(small.bake, cell, ObjectId(o), small.options).kind;
       EXPECT_EQ(kind == Representation::inside, is_inside(small.cells, cell, ObjectId(o)));
       if (o % 2 != 0) continue;  // of the balls, all alike
-      const double d = glm::distance(eye_of(small.cells, views_of(small.cells.grid, cell)[0]),
-                                     small.scene.objects[o].translation);
+      const double d = glm::distance(eye_of(small.cells, cell), small.scene.objects[o].translation);
       if (kind == Representation::multi_view) farthest_multi = std::max(farthest_multi, d);
       if (kind == Representation::single_view) nearest_single = std::min(nearest_single, d);
     }

@@ -77,7 +77,7 @@ TEST(Prism, HasTwelveCornersAtBothHeights) {
     EXPECT_EQ(glm::dvec2(corners[k]), hexagon[k % 6]);
     EXPECT_EQ(corners[k].z, k < 6 ? 16 : 20);
   }
-  const glm::dvec3 eye = eye_of(cells, views_of(cells.grid, cell)[0]);
+  const glm::dvec3 eye = eye_of(cells, cell);
   EXPECT_EQ(eye, glm::dvec3(centre_of(cells.grid, place_of(cells.grid, cell)), 18));
 }
 

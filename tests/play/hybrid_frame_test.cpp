@@ -153,7 +153,7 @@ TEST(HybridFrame, AtACentreTheCaptureComesBack) {
   const CellSet& cells = stage.bundle.cells();
   for (const CellId cell : shared_bake().list) {
     Camera camera;
-    camera.eye = eye_of(cells, views_of(cells.grid, cell)[0]);
+    camera.eye = eye_of(cells, cell);
     for (const SceneObject& object : stage.bundle.scene().objects) {
       const glm::dvec3 to = object.translation - camera.eye;
       if (glm::length(to) < 60) continue;

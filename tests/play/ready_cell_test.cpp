@@ -17,7 +17,7 @@ TEST(ReadyCell, IsWhatWasDerived) {
     const CellGeometry g = bundle.read_cell(cell);
     const ReadyCell ready = make_ready_cell(bundle.scene(), bundle.cells(), cell, g);
     EXPECT_EQ(ready.cell, cell);
-    EXPECT_EQ(ready.origin, eye_of(small.cells, views_of(small.cells.grid, cell)[0]));
+    EXPECT_EQ(ready.origin, eye_of(small.cells, cell));
     ASSERT_EQ(ready.objects.size(), g.objects.size());
     ASSERT_EQ(ready.vertices.size(), g.source_vertices.size());
     ASSERT_EQ(ready.indices.size(), g.indices.size());

@@ -13,7 +13,7 @@ namespace {
 
 Camera camera_at(const CellSet& cells, CellId cell) {
   Camera camera;
-  camera.eye = eye_of(cells, views_of(cells.grid, cell)[0]);
+  camera.eye = eye_of(cells, cell);
   return camera;
 }
 
