@@ -5,16 +5,12 @@
 #include <set>
 
 #include "draw/small_scene.h"
+#include "scene/in_frame.h"
 
 namespace viewcell {
 namespace {
 
 constexpr double kFocal1024 = 886.8100134752652;  // 512 / tan(30 degrees)
-
-bool is_in_frame(const glm::dmat4& clip_from_world, double near, const glm::dvec3& p) {
-  const glm::dvec4 c = clip_from_world * glm::dvec4(p, 1);
-  return c.w >= near && std::abs(c.x) <= c.w && std::abs(c.y) <= c.w;
-}
 
 std::set<std::size_t> drawn(const FramePlan& plan) {
   std::set<std::size_t> out;
@@ -43,11 +39,10 @@ TEST(FramePlan, NoObjectWithAVertexInTheFrameIsCulled) {
       camera.aspect = random.uniform(0.3, 3);
       camera.near = random.uniform(0.1, 30);
       const auto in_plan = drawn(plan_frustum(plan_scene, camera));
-      const glm::dmat4 clip = clip_from_world(camera);
       for (std::size_t i = 0; i < scene.objects.size(); ++i) {
         bool visible = false;
         for (const glm::vec3& p : scene.mesh_of(scene.objects[i]).mesh.positions)
-          visible |= is_in_frame(clip, camera.near, scene.objects[i].world_from_model(p));
+          visible |= is_in_frame(camera, scene.objects[i].world_from_model(p));
         n_visible += visible;
         n_culled += !in_plan.contains(i);
         ASSERT_TRUE(!visible || in_plan.contains(i)) << "object " << i << " view " << k;

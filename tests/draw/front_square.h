@@ -1,6 +1,8 @@
 // A square, and the view that it faces.
 #pragma once
 
+#include <cmath>
+
 #include "draw/mesh_renderer.h"
 
 namespace viewcell {
@@ -25,6 +27,14 @@ inline Camera front_view() {
   camera.eye = {0, -glm::length(camera.eye), 0};
   camera.forward = {0, 1, 0};
   return camera;
+}
+
+/// The pixel of a picture from there that shows (x, z) of the square.
+inline Rgba8 at_square(const ImageRgba8& image, double x, double z) {
+  const double radius = std::sqrt(2.0);  // of the frame
+  const glm::dvec4 clip = clip_from_world(front_view()) * glm::dvec4(x / radius, 0, z / radius, 1);
+  return image.at(static_cast<int>((0.5 + 0.5 * clip.x / clip.w) * image.width_px),
+                  static_cast<int>((0.5 - 0.5 * clip.y / clip.w) * image.height_px));
 }
 
 /// One sample a pixel.

@@ -4,6 +4,7 @@
 #include "draw/scene_renderer.h"
 #include "gl/context.h"
 #include "gl/framebuffer.h"
+#include "image/metrics.h"
 
 namespace viewcell {
 
@@ -21,18 +22,9 @@ inline ImageRgba8 draw_frame(const SceneRenderer& renderer, const GlFramebuffer&
   return target.read_rgba8();
 }
 
-/// dB of luminance over the whole frame; 100 for equal pictures.
-inline double luminance_psnr_db(const ImageRgba8& a, const ImageRgba8& b) {
-  double sum = 0;
-  for (std::size_t i = 0; i < a.pixels.size(); ++i) {
-    const auto luminance = [](const Rgba8& p) {
-      return 0.299 * p[0] + 0.587 * p[1] + 0.114 * p[2];
-    };
-    const double d = luminance(a.pixels[i]) - luminance(b.pixels[i]);
-    sum += d * d;
-  }
-  if (sum == 0) return 100;
-  return 10 * std::log10(255.0 * 255.0 / (sum / static_cast<double>(a.pixels.size())));
+/// Of two pictures' luminance, over the whole frame.
+inline double psnr_db(const ImageRgba8& a, const ImageRgba8& b) {
+  return compare_images(a, b, {.ssim = false}).psnr_db;
 }
 
 }  // namespace viewcell

@@ -60,11 +60,7 @@ TriMesh make_square(float repeats = 1) {
 
 // The pixel that shows (u, v) of the square with one repeat.
 Rgba8 at_uv(const ImageRgba8& image, double u, double v) {
-  const glm::dvec4 clip =
-      clip_from_world(front_view()) * glm::dvec4((2 * u - 1) / glm::root_two<double>(), 0,
-                                                 (2 * v - 1) / glm::root_two<double>(), 1);
-  return image.at(static_cast<int>((0.5 + 0.5 * clip.x / clip.w) * image.width_px),
-                  static_cast<int>((0.5 - 0.5 * clip.y / clip.w) * image.height_px));
+  return at_square(image, 2 * u - 1, 2 * v - 1);
 }
 
 constexpr Rgba8 kRed{200, 10, 20, 255}, kGreen{10, 180, 30, 255}, kBlue{20, 40, 220, 255},
@@ -273,7 +269,7 @@ TEST(MeshRenderer, FlatAndComputedNormalsDifferOnACoarseSphere) {
   style.normals = NormalSource::flat;
   const ImageRgba8 flat = draw(sphere, front_view(), style);
   EXPECT_EQ(count_covered(smooth), count_covered(flat));
-  EXPECT_LT(luminance_psnr_db(smooth, flat), 40);
+  EXPECT_LT(psnr_db(smooth, flat), 40);
 }
 
 // In the row of v = 0.7 that is the square's diagonal, sqrt(2) pixels wide at 45 degrees.
@@ -318,7 +314,7 @@ TEST(MeshRenderer, SizeAndPlaceDoNotMatterInTheOwnFrame) {
   style.size_px = 256;  // rounding may move a sample across an edge: 68 dB each
   for (const Camera& view : make_views(4)) {
     const ImageRgba8 a = draw(torus, view, style), b = draw(moved, view, style);
-    EXPECT_GT(luminance_psnr_db(a, b), 60);
+    EXPECT_GT(psnr_db(a, b), 60);
     EXPECT_GT(count_covered(a), 1000u);
   }
 }

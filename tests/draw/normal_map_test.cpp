@@ -30,13 +30,6 @@ ImageRgba8 draw(const TriMesh& mesh, const ImageRgba8* normal_map,
       .draw(front_view());
 }
 
-Rgba8 at_xz(const ImageRgba8& image, double x, double z) {
-  const glm::dvec4 clip =
-      clip_from_world(front_view()) * glm::dvec4(x / std::sqrt(2.0), 0, z / std::sqrt(2.0), 1);
-  return image.at(static_cast<int>((0.5 + 0.5 * clip.x / clip.w) * kReliefSize),
-                  static_cast<int>((0.5 - 0.5 * clip.y / clip.w) * kReliefSize));
-}
-
 void expect_lit(const Rgba8& seen, const glm::dvec3& normal, const char* what) {
   const MeshStyle style = plain_style(kReliefSize);
   const glm::vec3 c = shade(style.lighting, style.base_color, glm::vec3(glm::normalize(normal)));
@@ -49,7 +42,7 @@ constexpr Rgba8 kTilted{200, 150, 210, 255};
 TEST(NormalMap, FlatOneChangesNothing) {
   const TriMesh square = make_square(glm::mat2(0.5f), glm::vec2(0.5f));
   const ImageRgba8 flat(4, 4, encode_normal({0, 0, 1}));
-  expect_lit(at_xz(draw(square, &flat), 0.3, 0.2), {0.004, -1, 0.004}, "flat");
+  expect_lit(at_square(draw(square, &flat), 0.3, 0.2), {0.004, -1, 0.004}, "flat");
 }
 
 // The tangent is where u grows, the bitangent where v grows, mirrored charts included: whatever the
@@ -74,7 +67,7 @@ TEST(NormalMap, IsRelativeToWhereTheTextureRuns) {
         style.flip_v = flip_v;
         const glm::dvec3 n = decode_normal(kTilted, y);
         const glm::dvec2 xz = n.x * t + (flip_v ? -n.y : n.y) * b;
-        const Rgba8 seen = at_xz(draw(square, &map, style), 0.1, -0.2);
+        const Rgba8 seen = at_square(draw(square, &map, style), 0.1, -0.2);
         expect_lit(seen, {xz.x, -n.z, xz.y}, is_mirrored ? "mirrored" : "straight");
       }
   }
@@ -86,12 +79,12 @@ TEST(NormalMap, FollowsTheVertexNormals) {
   square.normals.assign(4, glm::normalize(glm::vec3(1, -1, 0)));
   const ImageRgba8 map(4, 4, kTilted);
   const glm::dvec3 n = decode_normal(kTilted), along = glm::normalize(glm::dvec3(1, 1, 0));
-  expect_lit(at_xz(draw(square, &map), 0.3, 0.2),
+  expect_lit(at_square(draw(square, &map), 0.3, 0.2),
              n.x * along + n.y * glm::dvec3(0, 0, 1) + n.z * glm::dvec3(square.normals[0]),
              "tilted normals");
   MeshStyle style = plain_style(kReliefSize);
   style.normals = NormalSource::flat;
-  expect_lit(at_xz(draw(square, &map, style), 0.3, 0.2), {n.x, -n.z, n.y}, "flat normals");
+  expect_lit(at_square(draw(square, &map, style), 0.3, 0.2), {n.x, -n.z, n.y}, "flat normals");
 }
 
 // Codes are linear: the mean of two in the middle between texels; and rows run from the top.
@@ -102,11 +95,11 @@ TEST(NormalMap, IsFilteredAsNumbers) {
   map.at(0, 2) = map.at(0, 3) = low;
   const ImageRgba8 image = draw(square, &map);
   const auto lit = [](const glm::dvec3& n) { return glm::dvec3(n.x, -n.z, n.y); };
-  expect_lit(at_xz(image, 0.3, 0.5), lit(decode_normal(high)), "above");
-  expect_lit(at_xz(image, 0.3, -0.5), lit(decode_normal(low)), "below");
+  expect_lit(at_square(image, 0.3, 0.5), lit(decode_normal(high)), "above");
+  expect_lit(at_square(image, 0.3, -0.5), lit(decode_normal(low)), "below");
   const glm::dvec3 middle = 0.5 * (decode_normal(low) + decode_normal(high));
-  const Rgba8 seen = at_xz(image, 0.3, 0);
-  const Rgba8 a = at_xz(image, 0.3, 0.5), b = at_xz(image, 0.3, -0.5);
+  const Rgba8 seen = at_square(image, 0.3, 0);
+  const Rgba8 a = at_square(image, 0.3, 0.5), b = at_square(image, 0.3, -0.5);
   EXPECT_LT(std::min(a[0], b[0]), seen[0]);
   const MeshStyle style = plain_style(kReliefSize);
   const glm::vec3 expected =
@@ -125,9 +118,9 @@ TEST(NormalMap, IsLookedUpThroughAnIndexingMap) {
   const glm::dvec3 n = decode_normal(kTilted);
   for (const ImageRgba8* texture : {static_cast<const ImageRgba8*>(nullptr), &white}) {
     const Rgba8 tilted =
-        at_xz(draw(square, &map, plain_style(kReliefSize), &right, texture), -0.5, 0.3);
+        at_square(draw(square, &map, plain_style(kReliefSize), &right, texture), -0.5, 0.3);
     const Rgba8 straight =
-        at_xz(draw(square, &map, plain_style(kReliefSize), &left, texture), 0.5, 0.3);
+        at_square(draw(square, &map, plain_style(kReliefSize), &left, texture), 0.5, 0.3);
     if (!texture) expect_lit(tilted, {n.x, -n.z, n.y}, "the right half, seen on the left");
     if (!texture) expect_lit(straight, {0.004, -1, 0.004}, "the left half, seen on the right");
     EXPECT_GT(std::abs(int{tilted[0]} - int{straight[0]}), 10);

@@ -185,7 +185,7 @@ TEST(SceneRenderer, LevelsLookLikeTheOriginal) {
     const FramePlan lod = plan_lod(stage.plan_scene, camera, kFrameSize);
     n_original += frustum.n_triangles;
     n_levels += lod.n_triangles;
-    EXPECT_GT(luminance_psnr_db(stage.draw(camera, frustum), stage.draw(camera, lod)), 30);
+    EXPECT_GT(psnr_db(stage.draw(camera, frustum), stage.draw(camera, lod)), 30);
   }
   EXPECT_LT(3 * n_levels, n_original);
 }
@@ -205,7 +205,7 @@ TEST(SceneRenderer, RaysSeeWhatTheRasteriserDraws) {
     for (std::size_t i = 0; i < raster.pixels.size(); ++i)
       n_different += most_difference(raster.pixels[i], cast.pixels[i]) > 2;
     EXPECT_LE(n_different, raster.pixels.size() / 2000);
-    EXPECT_GT(luminance_psnr_db(raster, cast), 45);
+    EXPECT_GT(psnr_db(raster, cast), 45);
   }
 }
 

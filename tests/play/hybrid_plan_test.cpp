@@ -5,6 +5,7 @@
 #include <set>
 
 #include "bake/small_bake.h"
+#include "scene/in_frame.h"
 
 namespace viewcell {
 namespace {
@@ -144,11 +145,6 @@ TEST(ChooseViews, DegenerateEyesGiveNumbers) {
     EXPECT_TRUE(std::isfinite(w));
 }
 
-bool is_in_frame(const Camera& camera, const glm::dvec3& p) {
-  const glm::dvec4 c = clip_from_world(camera) * glm::dvec4(p, 1);
-  return c.w > camera.near && std::abs(c.x) < c.w && std::abs(c.y) < c.w;
-}
-
 // The face through which the segment from the eye leaves the hexagon.
 int face_between(const HexGrid& grid, CellId cell, const glm::dvec2& eye, const glm::dvec2& point) {
   const glm::dvec2 centre = centre_of(grid, place_of(grid, cell));
@@ -232,7 +228,7 @@ TEST(PlanHybrid, NoObjectWithAVertexInTheFrameIsCulled) {
     const ReadyCell ready =
         make_ready_cell(planned.bundle.scene(), cells, cell, planned.bundle.read_cell(cell));
     const ViewsAvailable views(ready.objects.size(), 0x7f);
-    const glm::dvec3 centre = eye_of(cells, views_of(cells.grid, cell)[0]);
+    const glm::dvec3 centre = eye_of(cells, cell);
     for (int k = 0; k < 60; ++k) {
       Camera camera;
       camera.eye = centre + glm::dvec3(random.uniform(-20, 20), random.uniform(-20, 20),
@@ -289,7 +285,7 @@ TEST(PlanHybrid, ObjectsWithoutTrianglesAreNotDrawn) {
   g.source_vertices.clear(), g.offsets.clear(), g.indices.clear(), g.views.clear();
   const ReadyCell ready = make_ready_cell(planned.bundle.scene(), cells, CellId(0), g);
   Camera camera;
-  camera.eye = eye_of(cells, views_of(cells.grid, CellId(0))[0]);
+  camera.eye = eye_of(cells, CellId(0));
   camera.forward = glm::normalize(glm::dvec3(1, 1, 0));
   const ViewsAvailable views(ready.objects.size(), 0x7f);
   EXPECT_TRUE(plan_hybrid(planned.plan_scene, cells, ready, views, camera).outside.empty());
