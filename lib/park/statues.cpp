@@ -6,6 +6,7 @@
 
 #include "base/disjoint_sets.h"
 #include "base/error.h"
+#include "mesh/half_edge_mesh.h"
 #include "mesh/used_vertices.h"
 #include "park/figures.h"
 #include "park/polygonise.h"
@@ -100,27 +101,20 @@ void open_base(TriMesh& mesh, double floor_height) {
 // Takes away one triangle that has exactly one boundary edge and no other boundary vertex: the
 // surface stays manifold, its boundary one edge longer.
 void drop_boundary_triangle(TriMesh& mesh) {
-  std::vector<std::array<std::uint32_t, 3>> edges;  // a, b, triangle: half-edges, to be matched
-  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
-    for (std::size_t k = 0; k < 3; ++k)
-      edges.push_back({mesh.triangles[t][k], mesh.triangles[t][(k + 1) % 3], t});
-  std::sort(edges.begin(), edges.end());
-  const auto is_boundary = [&](const std::array<std::uint32_t, 3>& e) {
-    const auto at =
-        std::lower_bound(edges.begin(), edges.end(), std::array<std::uint32_t, 3>{e[1], e[0], 0});
-    return at == edges.end() || (*at)[0] != e[1] || (*at)[1] != e[0];
+  const HalfEdgeMesh half_edges(mesh);
+  VIEWCELL_CHECK(half_edges.refused().empty(), half_edges.refused()[0]);
+  const auto is_droppable = [&](std::uint32_t t) {
+    int n_open = 0, n_rim = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      n_open += half_edges.across(t, k) == HalfEdgeMesh::kNone;
+      n_rim += half_edges.is_boundary(mesh.triangles[t][k]);
+    }
+    return n_open == 1 && n_rim == 2;
   };
-  std::vector<int> n_boundary_edges(mesh.triangles.size(), 0);
-  std::vector<bool> is_rim(mesh.positions.size(), false);
-  for (const auto& e : edges)
-    if (is_boundary(e)) ++n_boundary_edges[e[2]], is_rim[e[0]] = is_rim[e[1]] = true;
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    const Triangle& v = mesh.triangles[t];
-    if (n_boundary_edges[t] != 1 || is_rim[v[0]] + is_rim[v[1]] + is_rim[v[2]] != 2) continue;
-    mesh.triangles.erase(mesh.triangles.begin() + static_cast<std::ptrdiff_t>(t));
-    return;
-  }
-  throw_bug(__FILE__, __LINE__, "a boundary triangle that can be dropped");
+  std::uint32_t t = 0;
+  while (t < mesh.triangles.size() && !is_droppable(t)) ++t;
+  VIEWCELL_CHECK(t < mesh.triangles.size(), "no triangle can be dropped");
+  mesh.triangles.erase(mesh.triangles.begin() + t);
 }
 
 TriMesh simplify_to_count(const TriMesh& mesh, std::size_t n) {

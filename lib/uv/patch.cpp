@@ -12,6 +12,7 @@
 
 #include "base/error.h"
 #include "mesh/edges.h"
+#include "mesh/half_edge_mesh.h"
 #include "mesh/topology.h"
 #include "mesh/used_vertices.h"
 
@@ -113,66 +114,32 @@ std::vector<double> measure_levels(const EdgeTable& edges, const std::vector<dou
 
 // ---- growing ----
 
-// A set of triangles that is a disk at any time, or empty.
-class Disk {
- public:
-  Disk(const TriMesh& mesh, const EdgeTable& edges)
-      : mesh_(mesh),
-        edges_(edges),
-        n_at_edge_(edges.size(), 0),
-        half_at_edge_(edges.size()),
-        has_vertex_(mesh.positions.size(), false) {}
-
-  // True when the disk with the triangle is a disk.
-  bool is_joinable(std::uint32_t face) const {
-    int n_shared = 0;
-    std::uint32_t opposite = 0;
-    for (std::uint32_t k = 0; k < 3; ++k) {
-      const std::uint32_t edge = edges_.edge_of[3 * face + k];
-      if (n_at_edge_[edge] == 0) continue;
-      if (n_at_edge_[edge] == 2) return false;
-      if (from(half_at_edge_[edge]) == from(3 * face + k)) return false;  // turns the other way
-      ++n_shared;
-      opposite = mesh_.triangles[face][(k + 2) % 3];
-    }
-    if (n_shared == 1) return !has_vertex_[opposite];
-    return n_shared == 2;
+// True when the disk with the triangle is a disk.
+bool is_joinable(const HalfEdgeMesh& disk, const Triangle& t) {
+  int n_shared = 0;
+  std::uint32_t opposite = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const EdgeSide side = disk.side(t[k], t[(k + 1) % 3]);
+    if (side == EdgeSide::taken) return false;
+    if (side == EdgeSide::absent) continue;
+    ++n_shared;
+    opposite = t[(k + 2) % 3];
   }
-
-  void join(std::uint32_t face) {
-    for (std::uint32_t k = 0; k < 3; ++k) {
-      const std::uint32_t edge = edges_.edge_of[3 * face + k];
-      ++n_at_edge_[edge];
-      half_at_edge_[edge] = 3 * face + k;
-      has_vertex_[mesh_.triangles[face][k]] = true;
-    }
-    faces_.push_back(face);
-  }
-
-  const std::vector<std::uint32_t>& faces() const { return faces_; }
-
- private:
-  std::uint32_t from(std::uint32_t half) const { return mesh_.triangles[half / 3][half % 3]; }
-
-  const TriMesh& mesh_;
-  const EdgeTable& edges_;
-  std::vector<std::uint8_t> n_at_edge_;      // triangles of the disk: 0, 1 or 2
-  std::vector<std::uint32_t> half_at_edge_;  // half-edge of the one that joined last
-  std::vector<bool> has_vertex_;
-  std::vector<std::uint32_t> faces_;
-};
+  return n_shared == 2 || (n_shared == 1 && !disk.has_vertex(opposite));
+}
 
 std::vector<std::uint32_t> grow_disk(const TriMesh& mesh, const EdgeTable& edges,
                                      std::uint32_t first, std::size_t n_faces,
                                      const std::vector<double>& level,
                                      const std::vector<double>& distance) {
-  Disk disk(mesh, edges);
+  HalfEdgeMesh disk(mesh.positions.size());
   using Entry = std::tuple<double, double, std::uint32_t>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
   enum State : std::uint8_t { kOut, kQueued, kIn };
   std::vector<State> state(mesh.triangles.size(), kOut);
   const auto join = [&](std::uint32_t face) {
-    disk.join(face);
+    const bool is_joined = disk.add(face, mesh.triangles[face]);
+    VIEWCELL_CHECK(is_joined, "triangle", face);
     state[face] = kIn;
     for_each_neighbour(edges, face, [&](std::uint32_t other) {
       if (state[other] != kOut) return;
@@ -181,13 +148,13 @@ std::vector<std::uint32_t> grow_disk(const TriMesh& mesh, const EdgeTable& edges
     });
   };
   join(first);
-  while (!queue.empty() && disk.faces().size() < n_faces) {
+  while (!queue.empty() && disk.taken().size() < n_faces) {
     const std::uint32_t face = std::get<2>(queue.top());
     queue.pop();
     state[face] = kOut;  // a refused one is looked at again when the disk gets to its other edges
-    if (disk.is_joinable(face)) join(face);
+    if (is_joinable(disk, mesh.triangles[face])) join(face);
   }
-  return disk.faces();
+  return disk.taken();
 }
 
 // ---- the result ----
@@ -278,29 +245,15 @@ Patch cut_patch(const TriMesh& input, std::uint32_t around, std::size_t n_faces)
 }
 
 std::vector<std::uint32_t> find_boundary_loop(const TriMesh& mesh) {
-  const EdgeTable edges = build_edge_table(mesh);
-  std::vector<std::uint32_t> next(mesh.positions.size(), kNoEdge);
-  std::size_t n_boundary = 0;
-  for (std::size_t e = 0; e < edges.size(); ++e) {
-    if (edges.halves(e).size() != 1) continue;
-    const std::uint32_t half = edges.halves(e)[0];
-    const Triangle& t = mesh.triangles[half / 3];
-    VIEWCELL_CHECK(next[t[half % 3]] == kNoEdge, "the boundary passes twice vertex", t[half % 3]);
-    next[t[half % 3]] = t[(half + 1) % 3];
-    ++n_boundary;
-  }
-  const auto start = static_cast<std::uint32_t>(
-      std::find_if(next.begin(), next.end(), [](std::uint32_t v) { return v != kNoEdge; }) -
-      next.begin());
-  VIEWCELL_CHECK(start < next.size(), "no boundary");
-  std::vector<std::uint32_t> loop{start};
-  while (next[loop.back()] != start && loop.size() <= n_boundary) {
-    VIEWCELL_CHECK(next[loop.back()] != kNoEdge, "the boundary ends at vertex", loop.back());
-    loop.push_back(next[loop.back()]);
-  }
-  VIEWCELL_CHECK(loop.size() == n_boundary, "boundary edges", n_boundary, "in a loop of",
-                 loop.size());
-  return loop;
+  const HalfEdgeMesh half_edges(mesh);
+  VIEWCELL_CHECK(half_edges.refused().empty(), "no manifold at triangle", half_edges.refused()[0]);
+  std::vector<std::vector<std::uint32_t>> loops = half_edges.boundary_loops();
+  VIEWCELL_CHECK(loops.size() == 1, "boundary loops:", loops.size());
+  std::vector<std::uint32_t> once = loops[0];
+  std::sort(once.begin(), once.end());
+  const auto twice = std::adjacent_find(once.begin(), once.end());
+  VIEWCELL_CHECK(twice == once.end(), "the boundary passes twice vertex", *twice);
+  return std::move(loops[0]);
 }
 
 }  // namespace viewcell

@@ -31,7 +31,8 @@ struct Patch {
 /// the surface or an edge of three triangles a slit is left open, to the patch's boundary. When no
 /// more can be joined the patch has fewer triangles.
 ///
-/// `around` must be a start (is_patch_start), else BugError. O(n log n) of the whole mesh.
+/// `around` must be a start (is_patch_start), else BugError. O(n log n) of the whole mesh; n^2 of
+/// the most triangles at one vertex (20,000: a second).
 Patch cut_patch(const TriMesh& mesh, std::uint32_t around, std::size_t n_faces);
 
 /// True when a patch can start at the vertex.

@@ -2,14 +2,11 @@
 
 #include <meshoptimizer.h>
 
-#include <chrono>
-#include <vector>
-
-#ifdef VIEWCELL_HAS_OPENMESH
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 #include <OpenMesh/Tools/Decimater/DecimaterT.hh>
 #include <OpenMesh/Tools/Decimater/ModQuadricT.hh>
-#endif
+#include <chrono>
+#include <vector>
 
 namespace viewcell {
 namespace {
@@ -40,7 +37,6 @@ PeerResult run_meshoptimizer(const TriMesh& mesh, std::size_t target_faces) {
   return result;
 }
 
-#ifdef VIEWCELL_HAS_OPENMESH
 PeerResult run_openmesh(const TriMesh& mesh, std::size_t target_faces) {
   using Mesh = OpenMesh::TriMesh_ArrayKernelT<>;
   Mesh half_edges;
@@ -66,6 +62,5 @@ PeerResult run_openmesh(const TriMesh& mesh, std::size_t target_faces) {
   result.n_faces = half_edges.n_faces();
   return result;
 }
-#endif
 
 }  // namespace viewcell

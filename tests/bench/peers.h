@@ -16,9 +16,7 @@ struct PeerResult {
 /// meshopt_simplify: quadrics, arrays in and out, many collapses a pass, no record of them.
 PeerResult run_meshoptimizer(const TriMesh& mesh, std::size_t target_faces);
 
-#ifdef VIEWCELL_HAS_OPENMESH
 /// OpenMesh's decimater with its module of quadrics: half-edge collapses from a heap.
 PeerResult run_openmesh(const TriMesh& mesh, std::size_t target_faces);
-#endif
 
 }  // namespace viewcell

@@ -140,9 +140,7 @@ BENCHMARK_CAPTURE(build, aps, MetricKind::aps, Placement::half)->Apply(sizes_of_
 BENCHMARK_CAPTURE(build, mapping, MetricKind::mapping, Placement::half)->Apply(sizes_of_slow);
 BENCHMARK(stages)->Apply(sizes);
 BENCHMARK_CAPTURE(peer, meshoptimizer, run_meshoptimizer)->Apply(sizes);
-#ifdef VIEWCELL_HAS_OPENMESH
 BENCHMARK_CAPTURE(peer, openmesh, run_openmesh)->Apply(sizes);
-#endif
 
 }  // namespace
 }  // namespace viewcell
