@@ -13,17 +13,16 @@ struct Options {
 };
 
 void declare(Tool& tool, Options& options) {
-  CLI::App& app = tool.app();
-  app.add_option("scene", options.inputs.scene_file, "scene.json")->required();
-  app.add_option("cells", options.inputs.cells_file, "cells.json")->required();
-  app.add_option("captures", options.inputs.captures, "folder of captures")->required();
-  app.add_option("svmesh", options.inputs.svmesh, "folder of SVMeshes")->required();
-  app.add_option("mvmesh", options.inputs.mvmesh, "folder of MVMeshes")->required();
-  app.add_option("--cells", options.cell_list, "all | 3,7,10-19 | @FILE | path:path.json")
-      ->capture_default_str();
-  app.add_option("--textures", options.texture_format, "rgba8 | bc3 (a quarter of the disk)")
-      ->capture_default_str()
-      ->check(CLI::IsMember({"rgba8", "bc3"}));
+  tool.add_option("scene", &options.inputs.scene_file, "scene.json").required();
+  tool.add_option("cells", &options.inputs.cells_file, "cells.json").required();
+  tool.add_option("captures", &options.inputs.captures, "folder of captures").required();
+  tool.add_option("svmesh", &options.inputs.svmesh, "folder of SVMeshes").required();
+  tool.add_option("mvmesh", &options.inputs.mvmesh, "folder of MVMeshes").required();
+  tool.add_option("--cells", &options.cell_list, "all | 3,7,10-19 | @FILE | path:path.json")
+      .show_default();
+  tool.add_option("--textures", &options.texture_format, "rgba8 | bc3 (a quarter of the disk)")
+      .show_default()
+      .check(one_of({"rgba8", "bc3"}));
   tool.add_output("folder of the bundle to write");
 }
 

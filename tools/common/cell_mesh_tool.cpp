@@ -16,9 +16,9 @@ struct Options {
   BakeOptions bake;
 };
 
-void declare_weights(CLI::App& app, WeightOptions& w) {
+void declare_weights(Command& command, WeightOptions& w) {
   const auto add = [&](const char* flag, double& value, const char* what) {
-    app.add_option(flag, value, what)->capture_default_str()->check(within(0, 100));
+    command.add_option(flag, &value, what).show_default().check(within(0, 100));
   };
   add("--weight-exterior", w.exterior_silhouette, "weight of exterior silhouettes");
   add("--weight-interior-silhouette", w.interior_silhouette, "weight of C0 discontinuities");
@@ -29,15 +29,14 @@ void declare_weights(CLI::App& app, WeightOptions& w) {
 }
 
 void declare(Tool& tool, Options& options) {
-  CLI::App& app = tool.app();
-  app.add_option("scene", options.scene_file, "scene.json")->required();
-  app.add_option("cells", options.cells_file, "cells.json")->required();
-  app.add_option("captures", options.captures, "folder of captures")->required();
-  app.add_option("--cells", options.cell_list, "all | 3,7,10-19 | @FILE | path:path.json")
-      ->capture_default_str();
-  app.add_option("--slice", options.slice, "I/N: every N-th of those cells, from the I-th");
+  tool.add_option("scene", &options.scene_file, "scene.json").required();
+  tool.add_option("cells", &options.cells_file, "cells.json").required();
+  tool.add_option("captures", &options.captures, "folder of captures").required();
+  tool.add_option("--cells", &options.cell_list, "all | 3,7,10-19 | @FILE | path:path.json")
+      .show_default();
+  tool.add_option("--slice", &options.slice, "I/N: every N-th of those cells, from the I-th");
   const auto add = [&](const char* flag, double& value, const char* what) {
-    app.add_option(flag, value, what)->capture_default_str()->check(within(0, 1e6));
+    tool.add_option(flag, &value, what).show_default().check(within(0, 1e6));
   };
   BakeOptions& bake = options.bake;
   add("--ts", bake.ts_px, "T_s: self-occluding error, px, up to which one view is enough");
@@ -46,7 +45,7 @@ void declare(Tool& tool, Options& options) {
   add("--start-error", bake.start_error_px, "px of error of the level to start from; 0: original");
   add("--tc0", bake.categories.tc0, "T_C0, window depth for near 1, far infinite");
   add("--tc1", bake.categories.tc1, "T_C1, likewise");
-  declare_weights(app, bake.weights);
+  declare_weights(tool, bake.weights);
   tool.add_output("folder of meshes to write, a PLY a cell");
 }
 

@@ -2,6 +2,8 @@
 
 #include <unistd.h>
 
+#include <CLI/CLI.hpp>
+#include <algorithm>
 #include <charconv>
 #include <csignal>
 #include <cstdio>
@@ -14,6 +16,77 @@
 #include "base/version.h"
 
 namespace viewcell {
+
+// Hands a command line to CLI11 and takes from it what was typed.
+class Parser {
+ public:
+  Parser(Tool& tool, const std::string& example)
+      : tool_(tool), app_(tool.description_, tool.name_) {
+    app_.set_version_flag("--version", tool.name_ + " (viewcell) " + version());
+    app_.footer("Example:\n  " + example + "\n");
+    app_.get_formatter()->column_width(34);
+    if (!tool.commands_.empty()) {
+      app_.require_subcommand(1);
+      app_.fallthrough();
+    }
+    fill(app_, tool);
+    for (Command& command : tool.commands_)
+      fill(*app_.add_subcommand(command.name_, command.description_), command);
+  }
+
+  void parse(int argc, char** argv) {
+    app_.parse(argc, argv);
+    note_given(app_, tool_);
+    for (Command& command : tool_.commands_)
+      note_given(*app_.get_subcommand(command.name_), command);
+  }
+
+  int exit(const CLI::Success& success) const { return app_.exit(success); }
+
+ private:
+  static CLI::Option* add(CLI::App& app, const Option& option) {
+    const auto declare = [&](auto* target) -> CLI::Option* {
+      if constexpr (std::is_same_v<decltype(target), bool*>)
+        return app.add_flag(option.names, *target, option.help);
+      else
+        return app.add_option(option.names, *target, option.help);
+    };
+    CLI::Option* out = std::visit(declare, option.target);
+    out->required(option.is_required);
+    if (option.is_default_shown) out->capture_default_str();
+    if (option.is_one_each) out->expected(1)->take_all();
+    if (option.most_listed > 0) out->delimiter(',')->expected(1, option.most_listed);
+    if (option.rule)
+      out->check([check = option.rule->find_fault](const std::string& word) { return check(word); },
+                 option.rule->shown);
+    return out;
+  }
+
+  static void fill(CLI::App& app, const Command& command) {
+    std::vector<CLI::Option*> added;
+    for (const Option& option : command.options_) added.push_back(add(app, option));
+    for (std::size_t i = 0; i < added.size(); ++i) {
+      for (const std::string& other : command.options_[i].needed)
+        added[i]->needs(app.get_option(other));
+      for (const std::string& other : command.options_[i].excluded)
+        added[i]->excludes(app.get_option(other));
+    }
+  }
+
+  static void note_given(const CLI::App& app, Command& command) {
+    command.is_given_ = app.parsed();
+    for (Option& option : command.options_)
+      option.is_given = app.count(first_name(option.names)) > 0;
+  }
+
+  static std::string first_name(const std::string& names) {
+    return names.substr(0, names.find(','));
+  }
+
+  Tool& tool_;
+  CLI::App app_;
+};
+
 namespace {
 
 // An exception's text on one line, whatever it holds.
@@ -23,17 +96,34 @@ std::string one_line(const std::string& text) {
   return out;
 }
 
+Check make_check(const CLI::Validator& validator) {
+  return {[validator](const std::string& word) { return validator(word); },
+          validator.get_description()};
+}
+
 }  // namespace
 
-CLI::Validator within(double lo, double hi) {
+Check within(double lo, double hi) {
   std::ostringstream range;
   range << lo << " to " << hi;
-  const auto check = [lo, hi, text = range.str()](std::string& given) {
+  const auto check = [lo, hi, text = range.str()](const std::string& given) {
     double x = 0;
     if (CLI::detail::lexical_cast(given, x) && x >= lo && x <= hi) return std::string();
     return "'" + given + "' is not within " + text;
   };
   return {check, range.str()};
+}
+
+Check in_range(int lo, int hi) {
+  return make_check(CLI::Range(lo, hi));
+}
+
+Check in_range(std::size_t lo, std::size_t hi) {
+  return make_check(CLI::Range(lo, hi));
+}
+
+Check one_of(const std::vector<std::string>& words) {
+  return make_check(CLI::IsMember(words));
 }
 
 bool parse_whole(const std::string& text, std::uint64_t lo, std::uint64_t hi, std::size_t& n) {
@@ -46,9 +136,9 @@ bool parse_whole(const std::string& text, std::uint64_t lo, std::uint64_t hi, st
   return true;
 }
 
-CLI::Validator whole_within(std::uint64_t lo, std::uint64_t hi) {
+Check whole_within(std::uint64_t lo, std::uint64_t hi) {
   const std::string range = std::to_string(lo) + " to " + std::to_string(hi);
-  const auto check = [lo, hi, range](std::string& given) {
+  const auto check = [lo, hi, range](const std::string& given) {
     std::size_t ignored = 0;
     if (parse_whole(given, lo, hi, ignored)) return std::string();
     return "'" + given + "' is not a whole number from " + range;
@@ -56,39 +146,64 @@ CLI::Validator whole_within(std::uint64_t lo, std::uint64_t hi) {
   return {check, range};
 }
 
+Option& Command::add_option(const std::string& names, Target target, const std::string& help) {
+  return options_.emplace_back(Option{names, target, help});
+}
+
+Option& Command::add_flag(const std::string& names, bool* target, const std::string& help) {
+  return options_.emplace_back(Option{names, target, help});
+}
+
+Command& Command::add_command(const std::string& name, const std::string& description) {
+  return commands_.emplace_back(name, description);
+}
+
+bool Command::is_given(const std::string& option) const {
+  const auto is_it = [&](const Option& o) { return o.names == option; };
+  const auto found = std::find_if(options_.begin(), options_.end(), is_it);
+  VIEWCELL_CHECK(found != options_.end(), option);
+  return found->is_given;
+}
+
+const Command& Command::command(const std::string& name) const {
+  const auto is_it = [&](const Command& c) { return c.name_ == name; };
+  const auto found = std::find_if(commands_.begin(), commands_.end(), is_it);
+  VIEWCELL_CHECK(found != commands_.end(), name);
+  return *found;
+}
+
 Tool::Tool(const std::string& name, const std::string& description, const std::string& example)
-    : name_(name), app_(description, name) {
-  app_.set_version_flag("--version", name + " (viewcell) " + version());
-  app_.add_flag("-q,--quiet", common_.quiet, "no progress and no summary on stderr");
-  app_.add_option("-j,--threads", common_.n_threads, "threads (0: all cores)")
-      ->check(CLI::Range(0, 1024));
-  app_.add_option("--json", common_.json_file, "write a report as JSON to this file (-: stdout)");
-  app_.footer("Example:\n  " + example + "\n");
-  app_.get_formatter()->column_width(34);
+    : Command(name, description), example_(example) {
+  add_flag("-q,--quiet", &common_.quiet, "no progress and no summary on stderr");
+  add_option("-j,--threads", &common_.n_threads, "threads (0: all cores)").check(in_range(0, 1024));
+  add_option("--json", &common_.json_file, "write a report as JSON to this file (-: stdout)");
 }
 
 void Tool::add_output(const std::string& description, bool required) {
-  CLI::Option* option = app_.add_option("-o,--output", common_.output, description);
-  option->check(
-      [](const std::string& name) { return name.empty() ? "is no name" : std::string(); });
-  if (required) option->required();
+  Option& option = add_option("-o,--output", &common_.output, description);
+  option.check(
+      {[](const std::string& word) { return std::string(word.empty() ? "is no name" : ""); }, ""});
+  if (required) option.required();
 }
 
 int Tool::main(int argc, char** argv, const std::function<int()>& run) {
   const auto fail = [&](int code, const std::string& text) {
-    std::cerr << name_ << ": " << one_line(text) << "\n";
+    std::cerr << name() << ": " << one_line(text) << "\n";
     return code;
   };
   std::signal(SIGXFSZ, SIG_IGN);  // ulimit -f: a write that fails, not an end without a word
   try {
-    app_.parse(argc, argv);
+    Parser parser(*this, example_);
+    try {
+      parser.parse(argc, argv);
+    } catch (const CLI::Success& success) {  // --help, --version
+      return parser.exit(success);
+    }
     return run();
-  } catch (const CLI::Success& success) {  // --help, --version
-    return app_.exit(success);
   } catch (const CLI::Error& error) {
-    return fail(2, std::string(error.what()) + " (see " + name_ + " --help)");
+    return fail(2, std::string(error.what()) + " (see " + name() + " --help)");
   } catch (const UsageError& error) {
-    return fail(2, std::string(error.what()) + " (see " + name_ + " --help)");
+    return fail(2, std::string(error.what()) + " (see " + name() + " --help)");
   } catch (const InputError& error) {
     return fail(1, error.what());
   } catch (const MachineError& error) {
@@ -104,14 +219,14 @@ int Tool::main(int argc, char** argv, const std::function<int()>& run) {
 
 Progress Tool::progress(const std::string& what) const {
   if (common_.quiet || !isatty(2)) return {};
-  return [what, name = name_](std::size_t done, std::size_t total) {
+  return [what, name = name()](std::size_t done, std::size_t total) {
     std::fprintf(stderr, "\r%s: %s %zu of %zu%s", name.c_str(), what.c_str(), done, total,
                  done == total ? "\n" : "");
   };
 }
 
 void Tool::say(const std::string& line) const {
-  if (!common_.quiet) std::cerr << name_ << ": " << line << "\n";
+  if (!common_.quiet) std::cerr << name() << ": " << line << "\n";
 }
 
 void Tool::report(const Json& json) const {

@@ -2,27 +2,17 @@
 // exit codes (STYLE: 0 ok, 1 input, 2 usage, 3 machine, 4 bug, 5 over the threshold asked for).
 #pragma once
 
-#include <CLI/CLI.hpp>
-#include <cstdint>
 #include <functional>
 #include <string>
 
 #include "base/json.h"
 #include "base/parallel.h"
+#include "common/command.h"
 
 namespace viewcell {
 
 /// The exit code of "compared, and over the threshold asked for".
 inline constexpr int kOverThreshold = 5;
-
-/// For options: a number within [lo, hi]. CLI::Range lets NaN through.
-CLI::Validator within(double lo, double hi);
-
-/// Digits alone, and lo to hi; otherwise false, and n stays.
-bool parse_whole(const std::string& text, std::uint64_t lo, std::uint64_t hi, std::size_t& n);
-
-/// For options: digits alone, lo to hi.
-CLI::Validator whole_within(std::uint64_t lo, std::uint64_t hi);
 
 /// The options that every tool has.
 struct CommonOptions {
@@ -33,14 +23,12 @@ struct CommonOptions {
 };
 
 /// A tool: its command line, declared in the constructor's caller, and its common options.
-class Tool {
+class Tool : public Command {
  public:
   /// example: one or more command lines, shown under --help.
   Tool(const std::string& name, const std::string& description, const std::string& example);
 
-  CLI::App& app() { return app_; }
   const CommonOptions& common() const { return common_; }
-  const std::string& name() const { return name_; }
   /// Declares -o with a description; required unless said otherwise.
   void add_output(const std::string& description, bool required = true);
 
@@ -56,9 +44,8 @@ class Tool {
   void report(const Json& json) const;
 
  private:
-  std::string name_;
   CommonOptions common_;
-  CLI::App app_;
+  std::string example_;
 };
 
 }  // namespace viewcell

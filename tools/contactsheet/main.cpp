@@ -20,27 +20,25 @@ struct Arguments {
 };
 
 void declare(Tool& tool, Arguments& arguments) {
-  CLI::App& app = tool.app();
-  app.add_option("PICTURE", arguments.pictures,
-                 "pictures of one size, row by row; an empty word leaves its place blank")
-      ->required();
-  app.add_option("--note", arguments.notes,
-                 "words under a picture; once for each, in the same order; may be fewer")
-      ->expected(1)
-      ->take_all();
-  app.add_option("--title", arguments.title, "a line above all");
-  app.add_option("--columns", arguments.n_columns, "pictures in a row")
-      ->capture_default_str()
-      ->check(CLI::Range(1, 64));
-  app.add_option("--tile", arguments.sheet.tile_px, "width to shrink larger pictures to, px")
-      ->capture_default_str()
-      ->check(CLI::Range(16, 4096));
-  app.add_flag("--trim", arguments.trim,
-               "cut the borders in which no picture shows anything (alpha 0), the same of all");
-  app.add_option("--bits", arguments.n_bits,
-                 "of a colour channel to keep: 5 nearly halves the file")
-      ->capture_default_str()
-      ->check(CLI::Range(1, 8));
+  tool.add_option("PICTURE", &arguments.pictures,
+                  "pictures of one size, row by row; an empty word leaves its place blank")
+      .required();
+  tool.add_option("--note", &arguments.notes,
+                  "words under a picture; once for each, in the same order; may be fewer")
+      .one_each();
+  tool.add_option("--title", &arguments.title, "a line above all");
+  tool.add_option("--columns", &arguments.n_columns, "pictures in a row")
+      .show_default()
+      .check(in_range(1, 64));
+  tool.add_option("--tile", &arguments.sheet.tile_px, "width to shrink larger pictures to, px")
+      .show_default()
+      .check(in_range(16, 4096));
+  tool.add_flag("--trim", &arguments.trim,
+                "cut the borders in which no picture shows anything (alpha 0), the same of all");
+  tool.add_option("--bits", &arguments.n_bits,
+                  "of a colour channel to keep: 5 nearly halves the file")
+      .show_default()
+      .check(in_range(1, 8));
   tool.add_output("PNG to write");
 }
 

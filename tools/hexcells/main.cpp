@@ -28,16 +28,14 @@ EyeHeight parse_eye_height(const std::string& text) {
 }
 
 void declare(Tool& tool, Options& options) {
-  tool.app().add_option("scene", options.scene_file, "scene.json")->required();
-  tool.app()
-      .add_option("--size", options.size, "circumradius of a cell")
-      ->capture_default_str()
-      ->check(within(1e-3, 1e6));
-  tool.app()
-      .add_option("--eye-height", options.eye_height, "range of the eye's heights, LO:HI")
-      ->capture_default_str();
-  tool.app().add_option("--svg", options.svg_file, "draw a map of cells and objects");
-  tool.app().add_option("--path", options.path_file, "path.json to draw into the map");
+  tool.add_option("scene", &options.scene_file, "scene.json").required();
+  tool.add_option("--size", &options.size, "circumradius of a cell")
+      .show_default()
+      .check(within(1e-3, 1e6));
+  tool.add_option("--eye-height", &options.eye_height, "range of the eye's heights, LO:HI")
+      .show_default();
+  tool.add_option("--svg", &options.svg_file, "draw a map of cells and objects");
+  tool.add_option("--path", &options.path_file, "path.json to draw into the map");
   tool.add_output("cells.json to write (-: stdout)");
 }
 

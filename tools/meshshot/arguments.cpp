@@ -12,82 +12,85 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void declare_surface(CLI::App& app, MeshshotArguments& o) {
-  app.add_option("MESH", o.mesh_file, "OBJ, PLY (.gz), OFF, STL, GLB, glTF or 3DS")->required();
-  app.add_option(
-      "--texture", o.texture,
+void declare_surface(Command& command, MeshshotArguments& o) {
+  command.add_option("MESH", &o.mesh_file, "OBJ, PLY (.gz), OFF, STL, GLB, glTF or 3DS").required();
+  command.add_option(
+      "--texture", &o.texture,
       "picture for the mesh's texture coordinates, repeated, filtered with mipmaps: a file, a "
       "GLB's base colour, or model.glb#normal (also #emissive, #occlusion, #metallicRoughness); "
       "textures that MESH names or holds are not read unless they are given here");
-  app.add_option(
-      "--normal-map", o.normal_map,
+  command.add_option(
+      "--normal-map", &o.normal_map,
       "tangent-space normal map for the same coordinates, named as a texture is: lights relief");
-  app.add_option("--normal-map-y", o.normal_map_y,
-                 "where its green points: up (OpenGL, glTF) | down (Direct3D)")
-      ->capture_default_str()
-      ->needs("--normal-map")
-      ->check(CLI::IsMember({"up", "down"}));
-  app.add_option(
-      "--index-map", o.map_file,
+  command
+      .add_option("--normal-map-y", &o.normal_map_y,
+                  "where its green points: up (OpenGL, glTF) | down (Direct3D)")
+      .show_default()
+      .needs("--normal-map")
+      .check(one_of({"up", "down"}));
+  command.add_option(
+      "--index-map", &o.map_file,
       "indexing map (.exr, .tif) that the mesh's texture coordinates look up; what it holds looks "
       "up --texture and --normal-map");
-  app.add_flag("--flip-v", o.style.flip_v,
-               "v = 0 is the texture's top row: for files whose coordinates run that way");
+  command.add_flag("--flip-v", &o.style.flip_v,
+                   "v = 0 is the texture's top row: for files whose coordinates run that way");
 }
 
-void declare_pictures(CLI::App& app, MeshshotArguments& o) {
-  app.add_option("--views", o.shots.n_views, "number of views, spread evenly over the sphere")
-      ->capture_default_str()
-      ->check(CLI::Range(std::size_t{1}, kMostViews));
-  app.add_option("--size", o.style.size_px, "side of a picture, px")
-      ->capture_default_str()
-      ->check(CLI::Range(16, kMostSamplesPerSide));
-  app.add_option("--samples", o.style.samples, "samples per pixel along each side")
-      ->capture_default_str()
-      ->check(CLI::Range(1, 8));
+void declare_pictures(Command& command, MeshshotArguments& o) {
+  command.add_option("--views", &o.shots.n_views, "number of views, spread evenly over the sphere")
+      .show_default()
+      .check(in_range(std::size_t{1}, kMostViews));
+  command.add_option("--size", &o.style.size_px, "side of a picture, px")
+      .show_default()
+      .check(in_range(16, kMostSamplesPerSide));
+  command.add_option("--samples", &o.style.samples, "samples per pixel along each side")
+      .show_default()
+      .check(in_range(1, 8));
 }
 
-void declare_frame(CLI::App& app, MeshshotArguments& o) {
-  app.add_option("--like", o.like_file,
-                 "take the frame (box and up axis) from this mesh: pictures of a simplified "
-                 "mesh, to be compared, want --like ORIGINAL");
-  app.add_option("--box", o.box, "x0,y0,z0:x1,y1,z1, the frame's box in the mesh's coordinates")
-      ->excludes("--like");
-  app.add_option("--up", o.up,
-                 "axis that points up: x | y | z | auto (y for OBJ, GLB and glTF, else z; with "
-                 "--like, by that file)")
-      ->capture_default_str()
-      ->check(CLI::IsMember({"x", "y", "z", "auto"}));
+void declare_frame(Command& command, MeshshotArguments& o) {
+  command.add_option("--like", &o.like_file,
+                     "take the frame (box and up axis) from this mesh: pictures of a simplified "
+                     "mesh, to be compared, want --like ORIGINAL");
+  command
+      .add_option("--box", &o.box, "x0,y0,z0:x1,y1,z1, the frame's box in the mesh's coordinates")
+      .excludes("--like");
+  command
+      .add_option("--up", &o.up,
+                  "axis that points up: x | y | z | auto (y for OBJ, GLB and glTF, else z; with "
+                  "--like, by that file)")
+      .show_default()
+      .check(one_of({"x", "y", "z", "auto"}));
 }
 
-void declare_look(CLI::App& app, MeshshotArguments& o) {
-  app.add_flag("--unlit", o.unlit, "the surface's colour as it is")->excludes("--normal-map");
-  app.add_flag("--fixed-light", o.fixed_light,
-               "the light stays with the mesh and does not turn with the view");
-  app.add_option(
-         "--normals", o.normals,
-         "mesh (computed where it has none) | computed (by angle; for both, where only one of two "
-         "meshes to compare has its own) | flat (of triangles)")
-      ->capture_default_str();
-  app.add_flag("--wireframe", o.style.wireframe, "draw edges over the surface");
+void declare_look(Command& command, MeshshotArguments& o) {
+  command.add_flag("--unlit", &o.unlit, "the surface's colour as it is").excludes("--normal-map");
+  command.add_flag("--fixed-light", &o.fixed_light,
+                   "the light stays with the mesh and does not turn with the view");
+  command
+      .add_option(
+          "--normals", &o.normals,
+          "mesh (computed where it has none) | computed (by angle; for both, where only one of two "
+          "meshes to compare has its own) | flat (of triangles)")
+      .show_default();
+  command.add_flag("--wireframe", &o.style.wireframe, "draw edges over the surface");
 }
 
 void declare_outputs(Tool& tool, MeshshotArguments& o) {
-  CLI::App& app = tool.app();
-  app.add_option("--sheet", o.sheet,
-                 "the contact sheet's file (default: DIR.sheet.png, beside the folder)");
-  app.add_flag("--no-sheet", o.no_sheet, "write no contact sheet")->excludes("--sheet");
-  app.add_option("--gl", o.gl, "osmesa | egl")->capture_default_str();
+  tool.add_option("--sheet", &o.sheet,
+                  "the contact sheet's file (default: DIR.sheet.png, beside the folder)");
+  tool.add_flag("--no-sheet", &o.no_sheet, "write no contact sheet").excludes("--sheet");
+  tool.add_option("--gl", &o.gl, "osmesa | egl").show_default();
   tool.add_output("folder DIR of pictures to write, view-00.png and on");
 }
 
 }  // namespace
 
 void declare_arguments(Tool& tool, MeshshotArguments& o) {
-  declare_surface(tool.app(), o);
-  declare_pictures(tool.app(), o);
-  declare_frame(tool.app(), o);
-  declare_look(tool.app(), o);
+  declare_surface(tool, o);
+  declare_pictures(tool, o);
+  declare_frame(tool, o);
+  declare_look(tool, o);
   declare_outputs(tool, o);
 }
 

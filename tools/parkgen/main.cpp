@@ -22,13 +22,12 @@ const ParkPreset& find_preset(const std::string& name) {
 }
 
 void declare(Tool& tool, Options& options) {
-  tool.app()
-      .add_option("--preset", options.preset, "demo (4m, short walk), 2m, 4m or 8m")
-      ->capture_default_str();
-  tool.app().add_option("--models", options.models_folder,
-                        "folder of real models (models.json, or files named by kind)");
-  tool.app().add_option("--seed", options.seed, "of all that is random")->capture_default_str();
-  tool.app().add_flag("--list", options.list, "print the kinds of statue and stop");
+  tool.add_option("--preset", &options.preset, "demo (4m, short walk), 2m, 4m or 8m")
+      .show_default();
+  tool.add_option("--models", &options.models_folder,
+                  "folder of real models (models.json, or files named by kind)");
+  tool.add_option("--seed", &options.seed, "of all that is random").show_default();
+  tool.add_flag("--list", &options.list, "print the kinds of statue and stop");
   tool.add_output("folder to write: scene.json, path.json, meshes/", false);
 }
 

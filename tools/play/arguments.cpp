@@ -48,37 +48,37 @@ PlayerOptions make_player_options(const Tool& tool, const PlayArguments& o) {
 }  // namespace
 
 void declare_arguments(Tool& tool, PlayArguments& o) {
-  CLI::App& app = tool.app();
-  app.add_option("bundle", o.bundle, "folder of the bundle")->required();
-  app.add_option("--path", o.path_file, "path.json")->required();
-  app.add_option("--modes", o.modes, "of " + list_modes())->capture_default_str();
-  app.add_option("--reference", o.reference, "mode that pictures are compared with")
-      ->capture_default_str();
-  app.add_option("--frames", o.session.n_frames, "frames over the whole path")
-      ->capture_default_str()
-      ->check(CLI::Range(1, 100000));
-  app.add_option("--turn", o.session.turn_frames, "frames of one mode before the next has its turn")
-      ->capture_default_str()
-      ->check(CLI::Range(1, 100000));
-  app.add_option("--size", o.size, "WIDTHxHEIGHT in px")->capture_default_str();
-  app.add_option("--save", o.session.save, "folder to write frames to, as PNG");
-  app.add_option("--every", o.session.save_every, "save every K-th frame")
-      ->capture_default_str()
-      ->check(CLI::Range(1, 100000));
-  app.add_option("--quality-every", o.session.quality_every, "compare every K-th frame")
-      ->capture_default_str()
-      ->check(CLI::Range(1, 100000));
-  app.add_option("--stats", o.stats_file, "write statistics as JSON (-: stdout)");
-  app.add_option("--table", o.table_file, "write the table of modes as Markdown (-: stdout)");
-  app.add_option("--plots", o.plots_folder, "folder to write plots to, as SVG");
-  app.add_option("--sheet", o.sheet_file, "write a contact sheet of chosen frames, as PNG");
-  app.add_option("--sheet-rows", o.session.n_sheet_rows, "frames on it")->capture_default_str();
-  app.add_option("--gl", o.gl, "osmesa | egl")->capture_default_str();
-  app.add_option("--texture-memory", o.texture_mb, "MB of GL memory for textures")
-      ->capture_default_str()
-      ->check(CLI::Range(1, 512));
-  app.add_flag("--no-prefetch", o.no_prefetch, "load cells only when they are entered");
-  app.add_flag("--no-quality", o.no_quality, "only measure times");
+  tool.add_option("bundle", &o.bundle, "folder of the bundle").required();
+  tool.add_option("--path", &o.path_file, "path.json").required();
+  tool.add_option("--modes", &o.modes, "of " + list_modes()).show_default();
+  tool.add_option("--reference", &o.reference, "mode that pictures are compared with")
+      .show_default();
+  tool.add_option("--frames", &o.session.n_frames, "frames over the whole path")
+      .show_default()
+      .check(in_range(1, 100000));
+  tool.add_option("--turn", &o.session.turn_frames,
+                  "frames of one mode before the next has its turn")
+      .show_default()
+      .check(in_range(1, 100000));
+  tool.add_option("--size", &o.size, "WIDTHxHEIGHT in px").show_default();
+  tool.add_option("--save", &o.session.save, "folder to write frames to, as PNG");
+  tool.add_option("--every", &o.session.save_every, "save every K-th frame")
+      .show_default()
+      .check(in_range(1, 100000));
+  tool.add_option("--quality-every", &o.session.quality_every, "compare every K-th frame")
+      .show_default()
+      .check(in_range(1, 100000));
+  tool.add_option("--stats", &o.stats_file, "write statistics as JSON (-: stdout)");
+  tool.add_option("--table", &o.table_file, "write the table of modes as Markdown (-: stdout)");
+  tool.add_option("--plots", &o.plots_folder, "folder to write plots to, as SVG");
+  tool.add_option("--sheet", &o.sheet_file, "write a contact sheet of chosen frames, as PNG");
+  tool.add_option("--sheet-rows", &o.session.n_sheet_rows, "frames on it").show_default();
+  tool.add_option("--gl", &o.gl, "osmesa | egl").show_default();
+  tool.add_option("--texture-memory", &o.texture_mb, "MB of GL memory for textures")
+      .show_default()
+      .check(in_range(1, 512));
+  tool.add_flag("--no-prefetch", &o.no_prefetch, "load cells only when they are entered");
+  tool.add_flag("--no-quality", &o.no_quality, "only measure times");
 }
 
 PlayerOptions finish_arguments(const Tool& tool, PlayArguments& o) {

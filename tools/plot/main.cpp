@@ -18,31 +18,29 @@ struct Arguments {
 };
 
 void declare(Tool& tool, Arguments& arguments) {
-  CLI::App& app = tool.app();
   CsvPlotOptions& o = arguments.options;
-  app.add_option("CSV", arguments.table,
-                 "comma-separated values with a header, a row a point (-: standard input); empty "
-                 "fields and nan break a line")
-      ->required();
-  app.add_option("--x", o.x, "column of what runs to the right")->required();
-  app.add_option("--y", o.y, "column of what goes up; several: panels side by side")
-      ->required()
-      ->delimiter(',')
-      ->expected(1, static_cast<int>(kMostPanels));
-  app.add_option("--by", o.by, "column whose values name the lines (default: one line)");
-  app.add_flag("--log-x", o.log_x, "equal factors are equal steps; for numbers above 0");
-  app.add_flag("--log-y", o.log_y, "the same upward");
-  app.add_option("--y-least", o.y_least, "draw smaller values at the lower edge")
-      ->check(within(-1e100, 1e100));
-  app.add_option("--y-most", o.y_most, "draw larger values at the upper edge")
-      ->check(within(-1e100, 1e100));
-  CLI::Option* points = app.add_flag("--points", arguments.points, "a mark at every point");
-  app.add_flag("--steps", arguments.steps,
-               "y holds from its x to the next, as in a histogram; x is where a bin begins")
-      ->excludes(points);
-  app.add_option("--title", o.title, "above the plot");
-  app.add_option("--x-label", o.x_label, "below the axis (default: the column's name)");
-  app.add_option("--y-label", o.y_label, "beside the axis (default: the column's name)");
+  tool.add_option("CSV", &arguments.table,
+                  "comma-separated values with a header, a row a point (-: standard input); empty "
+                  "fields and nan break a line")
+      .required();
+  tool.add_option("--x", &o.x, "column of what runs to the right").required();
+  tool.add_option("--y", &o.y, "column of what goes up; several: panels side by side")
+      .required()
+      .list(static_cast<int>(kMostPanels));
+  tool.add_option("--by", &o.by, "column whose values name the lines (default: one line)");
+  tool.add_flag("--log-x", &o.log_x, "equal factors are equal steps; for numbers above 0");
+  tool.add_flag("--log-y", &o.log_y, "the same upward");
+  tool.add_option("--y-least", &o.y_least, "draw smaller values at the lower edge")
+      .check(within(-1e100, 1e100));
+  tool.add_option("--y-most", &o.y_most, "draw larger values at the upper edge")
+      .check(within(-1e100, 1e100));
+  tool.add_flag("--points", &arguments.points, "a mark at every point");
+  tool.add_flag("--steps", &arguments.steps,
+                "y holds from its x to the next, as in a histogram; x is where a bin begins")
+      .excludes("--points");
+  tool.add_option("--title", &o.title, "above the plot");
+  tool.add_option("--x-label", &o.x_label, "below the axis (default: the column's name)");
+  tool.add_option("--y-label", &o.y_label, "beside the axis (default: the column's name)");
   tool.add_output("SVG to write; -: standard output");
 }
 

@@ -11,66 +11,66 @@ namespace {
 
 constexpr std::uint64_t kMostFaces = 4'000'000'000;
 
-void declare_build(CLI::App& app, PmeshArguments& a) {
-  CLI::App& build = *app.add_subcommand("build", "collapse a mesh and keep every step");
-  build.add_option("MODEL", a.model, "mesh: OBJ, PLY, OFF, STL, glTF, 3DS")->required();
+void declare_build(Command& command, PmeshArguments& a) {
+  Command& build = command.add_command("build", "collapse a mesh and keep every step");
+  build.add_option("MODEL", &a.model, "mesh: OBJ, PLY, OFF, STL, glTF, 3DS").required();
   build
-      .add_option("--metric", a.metric,
+      .add_option("--metric", &a.metric,
                   "qem3: quadrics; qem5: of position and texture; aps: texture deviation; mapping: "
                   "cell by cell [Chen06]; lt: "
                   "Lindstrom-Turk, memoryless")
-      ->capture_default_str();
-  build.add_option("--placement", a.placement,
+      .show_default();
+  build.add_option("--placement", &a.placement,
                    "half: a vertex goes to its neighbour; full: both to the best place (not "
                    "for aps; default: half, for lt full)");
   build
-      .add_option("--error", a.error,
+      .add_option("--error", &a.error,
                   "aps, mapping: total, from the input, or incremental, from the step before")
-      ->capture_default_str()
-      ->check(CLI::IsMember({"total", "incremental"}));
+      .show_default()
+      .check(one_of({"total", "incremental"}));
   build
-      .add_option("--measure", a.measure,
+      .add_option("--measure", &a.measure,
                   "mapping: max, of distances, or mean, of their squares over the surface")
-      ->capture_default_str()
-      ->check(CLI::IsMember({"max", "mean"}));
-  build.add_option("--stop-at", a.stop_at,
+      .show_default()
+      .check(one_of({"max", "mean"}));
+  build.add_option("--stop-at", &a.stop_at,
                    "a whole number: faces; a number with a point (0.5, 1.e-3): the metric's cost, "
                    "in units of the mesh. A bound of the distance for aps, and for mapping with "
                    "--error total and --measure max; for others it is none: see --bounded "
                    "(default: as far as it goes)");
-  build.add_flag("--unweighted", a.unweighted,
+  build.add_flag("--unweighted", &a.unweighted,
                  "qem3, qem5: every plane counts alike, whatever its area");
-  build.add_flag("--mean", a.mean, "qem3, qem5: the mean of squared distances, not their sum");
+  build.add_flag("--mean", &a.mean, "qem3, qem5: the mean of squared distances, not their sum");
   build
-      .add_option("--boundary-weight", a.build.qem.boundary_weight,
+      .add_option("--boundary-weight", &a.build.qem.boundary_weight,
                   "qem3, qem5: of boundary planes")
-      ->capture_default_str()
-      ->check(within(0, 1e6));
+      .show_default()
+      .check(within(0, 1e6));
   build
-      .add_option("--texture-weight", a.build.texture_weight,
+      .add_option("--texture-weight", &a.build.texture_weight,
                   "qem5: of a length in the texture, once its area is scaled to the surface's")
-      ->capture_default_str()
-      ->check(within(0, 1e6));
+      .show_default()
+      .check(within(0, 1e6));
   build
-      .add_option("--bounded", a.build.error_bound,
+      .add_option("--bounded", &a.build.error_bound,
                   "refuse what could bring a point farther than this from the other surface, in "
                   "units of the mesh")
-      ->check(within(1e-30, 1e30));
-  build.add_flag("--track-error", a.build.track_error,
+      .check(within(1e-30, 1e30));
+  build.add_flag("--track-error", &a.build.track_error,
                  "keep a bound of the distance for every level, under any metric (aps, mapping "
                  "and --bounded have it)");
-  build.add_flag("--no-folds", a.build.refuse_folds,
+  build.add_flag("--no-folds", &a.build.refuse_folds,
                  "refuse what turns a triangle over in the texture (qem5, aps, mapping do)");
   build
-      .add_option("--charts-apart", a.build.charts_apart_px,
+      .add_option("--charts-apart", &a.build.charts_apart_px,
                   "for texadapt: texels a side of the texture on which no chart may grow over "
                   "another as borders are simplified; 0: do not look")
-      ->check(whole_within(0, 32768));
-  build.add_flag("--flip-v", a.flip_v,
+      .check(whole_within(0, 32768));
+  build.add_flag("--flip-v", &a.flip_v,
                  "turn v upside down, for files in which it runs against their pictures");
-  build.add_flag("--no-texture", a.no_texture,
+  build.add_flag("--no-texture", &a.no_texture,
                  "leave texture coordinates out: charts then hold nothing back");
-  build.add_flag("--exact", a.exact, "look at every changed cost at once, not when it comes up");
+  build.add_flag("--exact", &a.exact, "look at every changed cost at once, not when it comes up");
 }
 
 [[noreturn]] void refuse_stop(const std::string& text) {
@@ -97,9 +97,9 @@ void set_stop(const std::string& text, PmeshArguments& a) {
 }
 
 // Options that do nothing under the metric chosen were meant for another.
-void check_metric_options(const CLI::App& build, const PmeshArguments& a) {
+void check_metric_options(const Command& build, const PmeshArguments& a) {
   const auto only = [&](const char* option, bool fits, const char* metrics) {
-    if (build.count(option) > 0 && !fits)
+    if (build.is_given(option) && !fits)
       throw UsageError(std::string(option) + " does nothing under --metric " + a.metric +
                        ": it is for " + metrics);
   };
@@ -127,23 +127,19 @@ void check_texture_options(const PmeshArguments& a) {
 }  // namespace
 
 void declare_arguments(Tool& tool, PmeshArguments& a) {
-  CLI::App& app = tool.app();
-  app.require_subcommand(1);
-  app.fallthrough();
-  declare_build(app, a);
-  CLI::App& extract = *app.add_subcommand("extract", "take a mesh of some size out of a .pm");
-  extract.add_option("PM", a.pm, "progressive mesh")->required();
-  CLI::Option* faces =
-      extract.add_option("--faces", a.n_faces, "the finest level of at most so many faces")
-          ->check(whole_within(1, kMostFaces));
+  declare_build(tool, a);
+  Command& extract = tool.add_command("extract", "take a mesh of some size out of a .pm");
+  extract.add_option("PM", &a.pm, "progressive mesh").required();
+  extract.add_option("--faces", &a.n_faces, "the finest level of at most so many faces")
+      .check(whole_within(1, kMostFaces));
   extract
-      .add_option("--within", a.within,
+      .add_option("--within", &a.within,
                   "the coarsest level that is surely no farther than this from the input, in units "
                   "of the mesh; for a .pm with bounds (see build --track-error)")
-      ->check(within(0, 1e30))
-      ->excludes(faces);
-  CLI::App& info = *app.add_subcommand("info", "say what a .pm holds");
-  info.add_option("PM", a.pm, "progressive mesh")->required();
+      .check(within(0, 1e30))
+      .excludes("--faces");
+  Command& info = tool.add_command("info", "say what a .pm holds");
+  info.add_option("PM", &a.pm, "progressive mesh").required();
   tool.add_output("file to write: .pm (build), .ply or .obj (extract); -: standard output", false);
 }
 
@@ -161,7 +157,7 @@ void finish_build(Tool& tool, PmeshArguments& a) {
   options.measure = a.measure == "mean" ? Measure::mean : Measure::max;
   if (a.stop_at) set_stop(*a.stop_at, a);
   options.name = a.model;
-  check_metric_options(*tool.app().get_subcommand("build"), a);
+  check_metric_options(tool.command("build"), a);
   check_texture_options(a);
   check_ending({"-o", common.output}, {".pm"}, "a progressive mesh");
   const std::vector<NamedFile> outputs{{"-o", common.output}, {"--json", common.json_file}};

@@ -13,8 +13,8 @@ int main(int argc, char** argv) {
   viewcell::PmeshArguments arguments;
   viewcell::declare_arguments(tool, arguments);
   return tool.main(argc, argv, [&] {
-    if (tool.app().got_subcommand("build")) return viewcell::build(tool, arguments);
-    if (tool.app().got_subcommand("extract")) return viewcell::extract(tool, arguments);
+    if (tool.command("build").is_given()) return viewcell::build(tool, arguments);
+    if (tool.command("extract").is_given()) return viewcell::extract(tool, arguments);
     return viewcell::info(tool, arguments);
   });
 }

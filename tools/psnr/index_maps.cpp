@@ -1,4 +1,4 @@
-#include "index_maps.h"
+#include "psnr/index_maps.h"
 
 #include <utility>
 

@@ -8,7 +8,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "common/tool.h"
-#include "index_maps.h"
+#include "psnr/index_maps.h"
 #include "report/compare_files.h"
 
 namespace viewcell {
@@ -24,28 +24,28 @@ struct Arguments {
 };
 
 void declare(Tool& tool, Arguments& arguments) {
-  CLI::App& app = tool.app();
-  app.add_option("REFERENCE", arguments.reference,
-                 "picture (PNG, JPEG, EXR, TIFF, WebP; -: standard input) or folder of pictures")
-      ->required();
-  app.add_option("TESTED", arguments.tested,
-                 "the picture to judge, or a folder with the same file names")
-      ->required();
-  CLI::Option* maps = app.add_flag("--index-maps", arguments.index_maps,
-                                   "both are indexing maps (.exr, .tif): RMS and largest distance "
-                                   "in texels, share within one texel");
-  app.add_option("--inside", arguments.inside,
-                 "of indexing maps, only texels inside the charts of this mesh")
-      ->needs(maps);
-  CLI::Option* fail = app.add_option("--fail-below", arguments.fail_below_db,
-                                     "exit with 5 when the PSNR of any pair is below this many dB");
-  CLI::Option* diff =
-      app.add_option("--diff", arguments.options.difference,
-                     "write the amplified difference: a PNG, or a folder of them for folders");
-  app.add_option("--gain", arguments.options.difference_gain, "what --diff multiplies by")
-      ->capture_default_str();
-  app.add_flag("--ssim,!--no-ssim", arguments.options.measures.ssim, "measure SSIM (default: yes)");
-  maps->excludes(fail)->excludes(diff);
+  tool.add_option("REFERENCE", &arguments.reference,
+                  "picture (PNG, JPEG, EXR, TIFF, WebP; -: standard input) or folder of pictures")
+      .required();
+  tool.add_option("TESTED", &arguments.tested,
+                  "the picture to judge, or a folder with the same file names")
+      .required();
+  tool.add_flag("--index-maps", &arguments.index_maps,
+                "both are indexing maps (.exr, .tif): RMS and largest distance "
+                "in texels, share within one texel")
+      .excludes("--fail-below")
+      .excludes("--diff");
+  tool.add_option("--inside", &arguments.inside,
+                  "of indexing maps, only texels inside the charts of this mesh")
+      .needs("--index-maps");
+  tool.add_option("--fail-below", &arguments.fail_below_db,
+                  "exit with 5 when the PSNR of any pair is below this many dB");
+  tool.add_option("--diff", &arguments.options.difference,
+                  "write the amplified difference: a PNG, or a folder of them for folders");
+  tool.add_option("--gain", &arguments.options.difference_gain, "what --diff multiplies by")
+      .show_default();
+  tool.add_flag("--ssim,!--no-ssim", &arguments.options.measures.ssim,
+                "measure SSIM (default: yes)");
   tool.add_output("write the table to this file (default -: standard output)", false);
 }
 

@@ -25,19 +25,18 @@ const std::vector<std::string> kSchemes = {"loop", "midpoint"};              // 
 const std::vector<std::string> kTexcoords = {"smooth", "inside", "linear"};  // TexcoordRule
 
 void declare(Tool& tool, Arguments& a) {
-  CLI::App& app = tool.app();
-  app.add_option("MESH", a.mesh, "OBJ, PLY (.gz), OFF, STL, GLB, glTF or 3DS")->required();
-  app.add_option("--times", a.options.n_times, "how often; each makes four triangles of one")
-      ->required()
-      ->check(whole_within(0, 13));
-  app.add_option("--scheme", a.scheme, "loop: smooth | midpoint: the same surface")
-      ->capture_default_str()
-      ->check(CLI::IsMember(kSchemes));
-  app.add_option("--texcoords", a.texcoords,
-                 "texture coordinates of loop: smooth, outlines of charts too | inside: smooth, "
-                 "outlines stay | linear: on each triangle as before")
-      ->capture_default_str()
-      ->check(CLI::IsMember(kTexcoords));
+  tool.add_option("MESH", &a.mesh, "OBJ, PLY (.gz), OFF, STL, GLB, glTF or 3DS").required();
+  tool.add_option("--times", &a.options.n_times, "how often; each makes four triangles of one")
+      .required()
+      .check(whole_within(0, 13));
+  tool.add_option("--scheme", &a.scheme, "loop: smooth | midpoint: the same surface")
+      .show_default()
+      .check(one_of(kSchemes));
+  tool.add_option("--texcoords", &a.texcoords,
+                  "texture coordinates of loop: smooth, outlines of charts too | inside: smooth, "
+                  "outlines stay | linear: on each triangle as before")
+      .show_default()
+      .check(one_of(kTexcoords));
   tool.add_output("mesh to write: .obj or .ply (-: an OBJ)");
 }
 

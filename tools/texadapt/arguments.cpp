@@ -14,65 +14,72 @@ namespace {
 constexpr std::uint64_t kMostFaces = 2000000000;
 constexpr std::uint64_t kMostSide = 32768;
 
-void declare_levels(CLI::App& app, TexadaptArguments& a) {
-  app.add_option("--faces", a.faces, "the finest level of at most so many faces")
-      ->check(whole_within(1, kMostFaces));
-  app.add_option("--levels", a.level_list,
-                 "N,N,..: several, one after another in this order, finer ones again after coarser "
-                 "ones too; N is put into the files' names, and each level's mesh is written "
-                 "beside its texture (as .ply, unless --mesh or --format glb)")
-      ->excludes("--faces");
-  app.add_option("--from", a.start_text,
-                 "N=MAP: start from this indexing map (.exr, .tif) of the level of N faces, not "
-                 "from the finest level");
-  app.add_option("--log", a.log, "write the adaptations to this file: .adapt");
-  app.add_option("--replay", a.replay, "take the adaptations from such a file")->excludes("--log");
+void declare_levels(Command& command, TexadaptArguments& a) {
+  command.add_option("--faces", &a.faces, "the finest level of at most so many faces")
+      .check(whole_within(1, kMostFaces));
+  command
+      .add_option(
+          "--levels", &a.level_list,
+          "N,N,..: several, one after another in this order, finer ones again after coarser "
+          "ones too; N is put into the files' names, and each level's mesh is written "
+          "beside its texture (as .ply, unless --mesh or --format glb)")
+      .excludes("--faces");
+  command.add_option(
+      "--from", &a.start_text,
+      "N=MAP: start from this indexing map (.exr, .tif) of the level of N faces, not "
+      "from the finest level");
+  command.add_option("--log", &a.log, "write the adaptations to this file: .adapt");
+  command.add_option("--replay", &a.replay, "take the adaptations from such a file")
+      .excludes("--log");
 }
 
-void declare_outputs(CLI::App& app, TexadaptArguments& a) {
-  app.add_option("--mesh", a.mesh, "write the level's mesh: .ply or .obj");
-  app.add_option("--index-map", a.index_map,
-                 "write the indexing map, too: .exr (float) or .tif (16 bits)");
-  app.add_option("--also", a.further_texts,
-                 "IMAGE=OUT.png: a further texture with the same coordinates, through the same "
-                 "indexing map; may be repeated");
-  CLI::Option* normal_map = app.add_option(
-      "--normal-map", a.normal_map_text,
+void declare_outputs(Command& command, TexadaptArguments& a) {
+  command.add_option("--mesh", &a.mesh, "write the level's mesh: .ply or .obj");
+  command.add_option("--index-map", &a.index_map,
+                     "write the indexing map, too: .exr (float) or .tif (16 bits)");
+  command.add_option("--also", &a.further_texts,
+                     "IMAGE=OUT.png: a further texture with the same coordinates, through the same "
+                     "indexing map; may be repeated");
+  command.add_option(
+      "--normal-map", &a.normal_map_text,
       "IMAGE=OUT.png: a tangent-space normal map with the same coordinates, made anew for the "
       "level's own tangents and normals, which its mesh then has; flat=OUT.png: none, so that the "
       "level is shaded as the finest mesh is; for --format glb, IMAGE or flat alone");
-  app.add_option("--normal-map-y", a.normal_map_y,
-                 "where the green of IMAGE points: up (OpenGL, glTF) | down (Direct3D); what is "
-                 "written points up")
-      ->needs(normal_map)
-      ->check(CLI::IsMember({"up", "down"}))
-      ->capture_default_str();
-  app.add_option("--format", a.format_name, "png | glb, with the mesh (default: as -o ends)")
-      ->check(CLI::IsMember({"png", "glb"}));
-  app.add_flag("--bake", a.bake,
-               "resolve the indexing map into an ordinary texture: what a .png "
-               "and a .glb always have");
+  command
+      .add_option("--normal-map-y", &a.normal_map_y,
+                  "where the green of IMAGE points: up (OpenGL, glTF) | down (Direct3D); what is "
+                  "written points up")
+      .needs("--normal-map")
+      .check(one_of({"up", "down"}))
+      .show_default();
+  command.add_option("--format", &a.format_name, "png | glb, with the mesh (default: as -o ends)")
+      .check(one_of({"png", "glb"}));
+  command.add_flag("--bake", &a.bake,
+                   "resolve the indexing map into an ordinary texture: what a .png "
+                   "and a .glb always have");
 }
 
-void declare_engine(CLI::App& app, TexadaptArguments& a) {
-  app.add_option("--engine", a.engine_name,
-                 "cpu | gl (by drawing) | rebake (no adaptation: a new texture from the nearest "
-                 "points of the "
-                 "finest mesh, to compare with)")
-      ->check(CLI::IsMember({"cpu", "gl", "rebake"}))
-      ->capture_default_str();
-  app.add_option("--gl", a.gl, "of --engine gl: osmesa | egl")
-      ->check(CLI::IsMember({"osmesa", "egl"}))
-      ->capture_default_str();
-  app.add_option("--texels", a.texel_name,
-                 "of the indexing map: float | half | 16 | 8 bits; or texture: adapt the texture "
-                 "itself, which blurs")
-      ->check(CLI::IsMember({"float", "half", "16", "8", "texture"}))
-      ->capture_default_str();
-  app.add_option("--size", a.size, "WxH: of the indexing map (default: the texture's)");
-  app.add_flag("--no-pack", a.one_by_one, "one adaptation after another, on one thread");
-  app.add_flag("--allow-overlap", a.allows_overlap,
-               "go on where two charts lie on the same texels; these follow one of them");
+void declare_engine(Command& command, TexadaptArguments& a) {
+  command
+      .add_option("--engine", &a.engine_name,
+                  "cpu | gl (by drawing) | rebake (no adaptation: a new texture from the nearest "
+                  "points of the "
+                  "finest mesh, to compare with)")
+      .check(one_of({"cpu", "gl", "rebake"}))
+      .show_default();
+  command.add_option("--gl", &a.gl, "of --engine gl: osmesa | egl")
+      .check(one_of({"osmesa", "egl"}))
+      .show_default();
+  command
+      .add_option("--texels", &a.texel_name,
+                  "of the indexing map: float | half | 16 | 8 bits; or texture: adapt the texture "
+                  "itself, which blurs")
+      .check(one_of({"float", "half", "16", "8", "texture"}))
+      .show_default();
+  command.add_option("--size", &a.size, "WxH: of the indexing map (default: the texture's)");
+  command.add_flag("--no-pack", &a.one_by_one, "one adaptation after another, on one thread");
+  command.add_flag("--allow-overlap", &a.allows_overlap,
+                   "go on where two charts lie on the same texels; these follow one of them");
 }
 
 std::vector<std::size_t> parse_levels(const std::string& list) {
@@ -209,14 +216,15 @@ std::string TexadaptArguments::name_at(const std::string& file, std::size_t leve
 }
 
 void declare_arguments(Tool& tool, TexadaptArguments& a) {
-  CLI::App& app = tool.app();
-  app.add_option("PM", a.pm, "progressive mesh with texture coordinates (pmesh build)")->required();
-  app.add_option("TEXTURE", a.texture,
-                 "its texture; row 0 is v = 1. A picture, or a GLB's (model.glb, model.glb#normal)")
-      ->required();
-  declare_levels(app, a);
-  declare_outputs(app, a);
-  declare_engine(app, a);
+  tool.add_option("PM", &a.pm, "progressive mesh with texture coordinates (pmesh build)")
+      .required();
+  tool.add_option(
+          "TEXTURE", &a.texture,
+          "its texture; row 0 is v = 1. A picture, or a GLB's (model.glb, model.glb#normal)")
+      .required();
+  declare_levels(tool, a);
+  declare_outputs(tool, a);
+  declare_engine(tool, a);
   tool.add_output(
       "the texture for that level: .png; with its mesh: .glb; as an indexing map: .exr "
       "or .tif (-: a PNG to standard output)");

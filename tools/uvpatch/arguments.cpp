@@ -33,31 +33,30 @@ std::size_t parse_faces(const std::string& text) {
 }  // namespace
 
 void declare_arguments(Tool& tool, UvpatchArguments& a) {
-  CLI::App& app = tool.app();
   const auto choice = [&](const char* flag, std::string& value, const Names& names,
                           const char* what) {
-    app.add_option(flag, value, what)->capture_default_str()->check(CLI::IsMember(names));
+    tool.add_option(flag, &value, what).show_default().check(one_of(names));
   };
   const auto number = [&](const char* flag, int& value, int most, const char* what) {
-    app.add_option(flag, value, what)->capture_default_str()->check(CLI::Range(2, most));
+    tool.add_option(flag, &value, what).show_default().check(in_range(2, most));
   };
-  app.add_option("MESH", a.mesh, "PLY, OBJ, OFF, STL, GLB or 3DS")->required();
-  app.add_option("--faces", a.faces, "how many triangles; all: of a component that is a disk")
-      ->required();
-  app.add_option("--around", a.patch.around, "vertex of the file, from 0, to grow around");
+  tool.add_option("MESH", &a.mesh, "PLY, OBJ, OFF, STL, GLB or 3DS").required();
+  tool.add_option("--faces", &a.faces, "how many triangles; all: of a component that is a disk")
+      .required();
+  tool.add_option("--around", &a.patch.around, "vertex of the file, from 0, to grow around");
   choice("--up", a.up, kUp, "without --around: the first vertex farthest along this axis");
   choice("--distort", a.distort, kDistort,
          "swirl: turned about the middle; stretch: u runs exponentially; uniform: Tutte's weights "
          "instead of mean values");
-  app.add_option("--strength", a.patch.strength,
-                 "turns of swirl (1) or exponent of stretch (3); less is used where triangles "
-                 "would turn over")
-      ->check(within(-20, 20));
+  tool.add_option("--strength", &a.patch.strength,
+                  "turns of swirl (1) or exponent of stretch (3); less is used where triangles "
+                  "would turn over")
+      .check(within(-20, 20));
   choice("--boundary", a.boundary, kBoundary, "what the boundary becomes");
-  app.add_option("--relax", a.patch.relax_steps,
-                 "at most so many steps against stretch (20; uniform: 0)")
-      ->check(CLI::Range(0, 1000));
-  app.add_option("--texture", a.texture, "picture to copy instead of a checker board");
+  tool.add_option("--relax", &a.patch.relax_steps,
+                  "at most so many steps against stretch (20; uniform: 0)")
+      .check(in_range(0, 1000));
+  tool.add_option("--texture", &a.texture, "picture to copy instead of a checker board");
   number("--texture-size", a.size_px, kMaxImageSidePx, "pixels a side of the checker board");
   number("--squares", a.n_squares, kMaxImageSidePx, "squares a side of the checker board");
   tool.add_output("OBJ to write, MTL and picture beside it (-: the OBJ alone)");
