@@ -231,7 +231,7 @@ pack_fault "nowhere/cell-00000.ply" nowhere mv
 : >in_the_way
 fault 3 "in_the_way/cells.json" "$bin/hexcells" park/scene.json -o in_the_way/cells.json
 fault 3 "nowhere/cells.json" "$bin/hexcells" park/scene.json -o nowhere/cells.json
-fault 3 "park: cannot rename" "$bin/hexcells" park/scene.json -o park
+fault 3 "park: cannot write: is a folder" "$bin/hexcells" park/scene.json -o park
 fault 1 "in_the_way" "$bin/svmesh" park/scene.json cells.json captures -o in_the_way
 fault 3 "in_the_way/x" "$bin/mvmesh" park/scene.json cells.json captures -o in_the_way/x
 fault 3 "in_the_way/x" "$bin/depthcap" park/scene.json cells.json -o in_the_way/x

@@ -159,7 +159,7 @@ fault 1 "noise.exr" "${indexed[@]}" noise.exr -o x
 printf 'OFF\n3 1 0\n1 2 3\n1 2 3\n1 2 3\n3 0 1 2\n' >point.off
 fault 1 "point.off: has no extent" "${shot[@]}" point.off -o x
 fault 1 "--box: has no extent" "${shot[@]}" ball.off --box 1,1,1:1,1,1 -o x
-fault 1 "ball.off" "${shot[@]}" ball.off -o ball.off
+fault 1 "gray.png" "${shot[@]}" ball.off -o gray.png
 # A folder with views that would stay is refused before anything is read.
 fault 1 "a: has 'view-02.png', which is none of the 2" "$bin/meshshot" ball.off --views 2 -o a
 [ "$n_faults" -eq 33 ] || fail "$n_faults faults typed"

@@ -95,7 +95,7 @@ fault 1 "cut.off" "$uvpatch" cut.off --faces 9 -o x.obj
 fault 1 "ball.off: is not a PNG" "$uvpatch" ball.off --faces 9 --texture ball.off -o x.obj
 head -c 60 a.png >cut.png
 fault 1 "cut.png" "$uvpatch" ball.off --faces 9 --texture cut.png -o x.obj
-fault 3 "nowhere/x.obj: cannot create" "$uvpatch" ball.off --faces 9 -o nowhere/x.obj
+fault 3 "nowhere/x.obj: cannot write: 'nowhere' is no folder" "$uvpatch" ball.off --faces 9 -o nowhere/x.obj
 mkdir a_folder.mtl
-fault 3 "a_folder.mtl: cannot rename" "$uvpatch" ball.off --faces 9 -o a_folder.obj
+fault 3 "a_folder.mtl: cannot write: is a folder" "$uvpatch" ball.off --faces 9 -o a_folder.obj
 echo "uvpatch.sh: all well ($n_faults faults)"

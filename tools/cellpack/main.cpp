@@ -1,6 +1,7 @@
 // cellpack: packs a bake into the bundle that the player loads.
 #include "bake/pack.h"
 #include "common/provenance.h"
+#include "common/scene_inputs.h"
 #include "common/tool.h"
 
 namespace viewcell {
@@ -13,22 +14,27 @@ struct Options {
 };
 
 void declare(Tool& tool, Options& options) {
-  tool.add_option("scene", &options.inputs.scene_file, "scene.json").required();
-  tool.add_option("cells", &options.inputs.cells_file, "cells.json").required();
-  tool.add_option("captures", &options.inputs.captures, "folder of captures").required();
-  tool.add_option("svmesh", &options.inputs.svmesh, "folder of SVMeshes").required();
-  tool.add_option("mvmesh", &options.inputs.mvmesh, "folder of MVMeshes").required();
-  tool.add_option("--cells", &options.cell_list, "all | 3,7,10-19 | @FILE | path:path.json")
-      .show_default();
+  PackInputs& inputs = options.inputs;
+  declare_scene_inputs(tool, &inputs.scene_file, &inputs.cells_file, &options.cell_list);
+  const auto add_folder = [&](const char* name, std::filesystem::path& folder, const char* what,
+                              const std::vector<std::string>& files) {
+    tool.add_option(name, &folder, what)
+        .required()
+        .reads("the " + std::string(what) + " that is read", files);
+  };
+  add_folder("captures", inputs.captures, "folder of captures", kCaptureFiles);
+  add_folder("svmesh", inputs.svmesh, "folder of SVMeshes", kCellMeshFiles);
+  add_folder("mvmesh", inputs.mvmesh, "folder of MVMeshes", kCellMeshFiles);
   tool.add_option("--textures", &options.texture_format, "rgba8 | bc3 (a quarter of the disk)")
       .show_default()
       .check(one_of({"rgba8", "bc3"}));
-  tool.add_output("folder of the bundle to write");
+  tool.add_output_folder("folder of the bundle to write", kBundleFiles);
 }
 
-int run(const Tool& tool, const Options& options) {
+int run(Tool& tool, const Options& options) {
   const int n_threads = tool.common().n_threads;
   const Scene scene = read_scene(options.inputs.scene_file, {.n_threads = n_threads});
+  register_scene_files(tool, scene, options.inputs.scene_file);
   const CellSet cells = read_cells(options.inputs.cells_file);
   check_cells_of_scene(cells, scene, options.inputs.cells_file);
   const auto list = select_cells(cells, options.cell_list);

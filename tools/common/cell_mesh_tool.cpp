@@ -5,6 +5,7 @@
 #include "bake/derive.h"
 #include "base/file.h"
 #include "common/provenance.h"
+#include "common/scene_inputs.h"
 #include "common/tool.h"
 
 namespace viewcell {
@@ -29,11 +30,10 @@ void declare_weights(Command& command, WeightOptions& w) {
 }
 
 void declare(Tool& tool, Options& options) {
-  tool.add_option("scene", &options.scene_file, "scene.json").required();
-  tool.add_option("cells", &options.cells_file, "cells.json").required();
-  tool.add_option("captures", &options.captures, "folder of captures").required();
-  tool.add_option("--cells", &options.cell_list, "all | 3,7,10-19 | @FILE | path:path.json")
-      .show_default();
+  declare_scene_inputs(tool, &options.scene_file, &options.cells_file, &options.cell_list);
+  tool.add_option("captures", &options.captures, "folder of captures")
+      .required()
+      .reads("the folder of captures that is read", kCaptureFiles);
   tool.add_option("--slice", &options.slice, "I/N: every N-th of those cells, from the I-th");
   const auto add = [&](const char* flag, double& value, const char* what) {
     tool.add_option(flag, &value, what).show_default().check(within(0, 1e6));
@@ -46,7 +46,7 @@ void declare(Tool& tool, Options& options) {
   add("--tc0", bake.categories.tc0, "T_C0, window depth for near 1, far infinite");
   add("--tc1", bake.categories.tc1, "T_C1, likewise");
   declare_weights(tool, bake.weights);
-  tool.add_output("folder of meshes to write, a PLY a cell");
+  tool.add_output_folder("folder of meshes to write, a PLY a cell", kCellMeshFiles);
 }
 
 Json format_counts(const DeriveCounts& counts, std::size_t n_cells, std::size_t n_kept) {
@@ -67,9 +67,10 @@ Json format_counts(const DeriveCounts& counts, std::size_t n_cells, std::size_t 
           {"refused", refused}};
 }
 
-int run(const Tool& tool, Representation kind, Options& options) {
+int run(Tool& tool, Representation kind, Options& options) {
   const int n_threads = tool.common().n_threads;
   const Scene scene = read_scene(options.scene_file, {.n_threads = n_threads});
+  register_scene_files(tool, scene, options.scene_file);
   const CellSet cells = read_cells(options.cells_file);
   check_cells_of_scene(cells, scene, options.cells_file);
   const auto list = select_cells(cells, options.cell_list, options.slice);

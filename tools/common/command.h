@@ -11,6 +11,8 @@
 #include <variant>
 #include <vector>
 
+#include "common/files.h"
+
 namespace viewcell {
 
 /// The variable that a word goes into; what it holds before is the default. bool: a flag's.
@@ -48,6 +50,8 @@ struct Option {
   std::optional<Check> rule = {};
   std::vector<std::string> needed = {}, excluded = {};  ///< names of options of the same command
   bool is_given = false;                                ///< after parsing: it was typed
+  std::optional<NamedFile> read = {}, written = {};  ///< what the word names; the path comes later
+  std::filesystem::path (*path_of)(const std::string& word) = nullptr;  ///< null: it is the word
 
   Option& required() { return is_required = true, *this; }
   Option& show_default() { return is_default_shown = true, *this; }
@@ -56,6 +60,12 @@ struct Option {
   Option& check(const Check& check) { return rule = check, *this; }
   Option& needs(const std::string& name) { return needed.push_back(name), *this; }
   Option& excludes(const std::string& name) { return excluded.push_back(name), *this; }
+  /// The word names a file that is read, called so in errors (a % is the path); with `inside` a
+  /// folder (files.h). A word that holds more than a path has it taken out by path_of.
+  Option& reads(const std::string& name, const std::vector<std::string>& inside = {});
+  Option& reads(const std::string& name, std::filesystem::path (*path_of)(const std::string& word));
+  /// The word names a file or a folder that is written.
+  Option& writes(const std::vector<std::string>& inside = {});
 };
 
 /// A tool's command line, or that of one of its commands (pmesh build).
@@ -75,9 +85,9 @@ class Command {
   /// One of a tool's commands must be typed; the tool's options may stand behind it.
   Command& add_command(const std::string& name, const std::string& description);
 
-  /// After parsing: whether it was typed, or one of its options was.
+  /// After parsing: whether the command (of a tool's commands), or an option of it, was typed.
   bool is_given() const { return is_given_; }
-  bool is_given(const std::string& option) const;
+  bool is_given(const std::string& option_names) const;
   const Command& command(const std::string& name) const;
 
  private:

@@ -16,6 +16,30 @@
 #include "base/version.h"
 
 namespace viewcell {
+namespace {
+
+using Words = std::vector<std::string>;
+
+std::string first_name(const std::string& names) {
+  return names.substr(0, names.find(','));
+}
+
+// What an option for text was given.
+Words words_of(const Target& target) {
+  if (const auto* word = std::get_if<std::string*>(&target)) return {**word};
+  if (const auto* path = std::get_if<std::filesystem::path*>(&target)) return {(*path)->string()};
+  if (const auto* words = std::get_if<Words*>(&target)) return **words;
+  throw BugError("an option names a file, but holds no text");
+}
+
+NamedFile fill_in(NamedFile file, const std::string& path) {
+  if (const std::size_t at = file.name.find('%'); at != std::string::npos)
+    file.name.replace(at, 1, path);
+  file.path = path;
+  return file;
+}
+
+}  // namespace
 
 // Hands a command line to CLI11 and takes from it what was typed.
 class Parser {
@@ -36,9 +60,19 @@ class Parser {
 
   void parse(int argc, char** argv) {
     app_.parse(argc, argv);
-    note_given(app_, tool_);
-    for (Command& command : tool_.commands_)
-      note_given(*app_.get_subcommand(command.name_), command);
+    for (const auto& [option, parsed] : options_) option->is_given = parsed->count() > 0;
+    for (Command& command : tool_.commands_) command.is_given_ = app_.got_subcommand(command.name_);
+  }
+
+  /// After parsing: the files that options name; -o and --json before other outputs.
+  void find_files(std::vector<NamedFile>& inputs, std::vector<NamedFile>& outputs) const {
+    find_files(tool_, inputs, outputs);
+    for (const Command& command : tool_.commands_) find_files(command, inputs, outputs);
+    const auto rank = [](const NamedFile& f) {
+      return f.name == "-o" ? 0 : f.name == "--json" ? 1 : 2;
+    };
+    std::stable_sort(outputs.begin(), outputs.end(),
+                     [&](const NamedFile& a, const NamedFile& b) { return rank(a) < rank(b); });
   }
 
   int exit(const CLI::Success& success) const { return app_.exit(success); }
@@ -56,35 +90,35 @@ class Parser {
     if (option.is_default_shown) out->capture_default_str();
     if (option.is_one_each) out->expected(1)->take_all();
     if (option.most_listed > 0) out->delimiter(',')->expected(1, option.most_listed);
-    if (option.rule)
-      out->check([check = option.rule->find_fault](const std::string& word) { return check(word); },
-                 option.rule->shown);
+    if (option.rule) out->check(option.rule->find_fault, option.rule->shown);
     return out;
   }
 
-  static void fill(CLI::App& app, const Command& command) {
-    std::vector<CLI::Option*> added;
-    for (const Option& option : command.options_) added.push_back(add(app, option));
-    for (std::size_t i = 0; i < added.size(); ++i) {
-      for (const std::string& other : command.options_[i].needed)
-        added[i]->needs(app.get_option(other));
-      for (const std::string& other : command.options_[i].excluded)
-        added[i]->excludes(app.get_option(other));
+  void fill(CLI::App& app, Command& command) {
+    const std::size_t n_before = options_.size();
+    for (Option& option : command.options_) options_.emplace_back(&option, add(app, option));
+    for (std::size_t i = n_before; i < options_.size(); ++i) {
+      const auto [option, added] = options_[i];
+      for (const std::string& other : option->needed) added->needs(app.get_option(other));
+      for (const std::string& other : option->excluded) added->excludes(app.get_option(other));
     }
   }
 
-  static void note_given(const CLI::App& app, Command& command) {
-    command.is_given_ = app.parsed();
-    for (Option& option : command.options_)
-      option.is_given = app.count(first_name(option.names)) > 0;
-  }
-
-  static std::string first_name(const std::string& names) {
-    return names.substr(0, names.find(','));
+  static void find_files(const Command& command, std::vector<NamedFile>& inputs,
+                         std::vector<NamedFile>& outputs) {
+    for (const Option& option : command.options_) {
+      if (!option.is_given || !(option.read || option.written)) continue;
+      for (const std::string& word : words_of(option.target)) {
+        const std::string path = option.path_of ? option.path_of(word).string() : word;
+        if (option.read) inputs.push_back(fill_in(*option.read, path));
+        if (option.written) outputs.push_back(fill_in(*option.written, path));
+      }
+    }
   }
 
   Tool& tool_;
   CLI::App app_;
+  std::vector<std::pair<Option*, CLI::Option*>> options_;
 };
 
 namespace {
@@ -146,6 +180,22 @@ Check whole_within(std::uint64_t lo, std::uint64_t hi) {
   return {check, range};
 }
 
+Option& Option::reads(const std::string& name, const std::vector<std::string>& inside) {
+  read = NamedFile{name, "", inside};
+  return *this;
+}
+
+Option& Option::reads(const std::string& name,
+                      std::filesystem::path (*path)(const std::string& word)) {
+  path_of = path;
+  return reads(name);
+}
+
+Option& Option::writes(const std::vector<std::string>& inside) {
+  written = NamedFile{first_name(names), "", inside};
+  return *this;
+}
+
 Option& Command::add_option(const std::string& names, Target target, const std::string& help) {
   return options_.emplace_back(Option{names, target, help});
 }
@@ -176,17 +226,52 @@ Tool::Tool(const std::string& name, const std::string& description, const std::s
     : Command(name, description), example_(example) {
   add_flag("-q,--quiet", &common_.quiet, "no progress and no summary on stderr");
   add_option("-j,--threads", &common_.n_threads, "threads (0: all cores)").check(in_range(0, 1024));
-  add_option("--json", &common_.json_file, "write a report as JSON to this file (-: stdout)");
+  add_option("--json", &common_.json_file, "write a report as JSON to this file (-: stdout)")
+      .writes();
 }
 
 void Tool::add_output(const std::string& description, bool required) {
+  declare_output(description, required).writes();
+}
+
+void Tool::add_output_folder(const std::string& description, const std::vector<std::string>& inside,
+                             bool required) {
+  declare_output(description, required).writes(inside);
+}
+
+void Tool::add_output_stem(const std::string& description) {
+  declare_output(description, true);
+}
+
+Option& Tool::declare_output(const std::string& description, bool required) {
   Option& option = add_option("-o,--output", &common_.output, description);
-  option.check(
+  option.is_required = required;
+  return option.check(
       {[](const std::string& word) { return std::string(word.empty() ? "is no name" : ""); }, ""});
-  if (required) option.required();
+}
+
+void Tool::reads(const std::vector<NamedFile>& files) {
+  inputs_.insert(inputs_.end(), files.begin(), files.end());
+  if (is_running_) check_all_files();
+}
+
+void Tool::writes(const std::vector<NamedFile>& files) {
+  outputs_.insert(outputs_.end(), files.begin(), files.end());
+  if (is_running_) check_all_files();
+}
+
+void Tool::check_all_files() const {
+  check_files(inputs_, outputs_);
+  check_places(outputs_);
 }
 
 int Tool::main(int argc, char** argv, const std::function<int()>& run) {
+  return main(
+      argc, argv, [] {}, run);
+}
+
+int Tool::main(int argc, char** argv, const std::function<void()>& prepare,
+               const std::function<int()>& run) {
   const auto fail = [&](int code, const std::string& text) {
     std::cerr << name() << ": " << one_line(text) << "\n";
     return code;
@@ -199,6 +284,10 @@ int Tool::main(int argc, char** argv, const std::function<int()>& run) {
     } catch (const CLI::Success& success) {  // --help, --version
       return parser.exit(success);
     }
+    parser.find_files(inputs_, outputs_);
+    prepare();
+    check_all_files();
+    is_running_ = true;
     return run();
   } catch (const CLI::Error& error) {
     return fail(2, std::string(error.what()) + " (see " + name() + " --help)");

@@ -29,12 +29,25 @@ class Tool : public Command {
   Tool(const std::string& name, const std::string& description, const std::string& example);
 
   const CommonOptions& common() const { return common_; }
-  /// Declares -o with a description; required unless said otherwise.
+  /// Declares -o, required unless said otherwise: a file, a folder in which such files are written
+  /// (files.h), or, with add_output_stem, the beginning of names that `prepare` makes and
+  /// registers.
   void add_output(const std::string& description, bool required = true);
+  void add_output_folder(const std::string& description, const std::vector<std::string>& inside,
+                         bool required = true);
+  void add_output_stem(const std::string& description);
 
-  /// Parses, runs, and turns exceptions into one line on stderr and an exit code. `run` returns the
-  /// exit code (0 or 5).
+  /// Parses; prepares: what the command line alone shows to be wrong, and files that it names
+  /// indirectly; checks all files; runs. Turns exceptions into one line on stderr and an exit code.
+  /// `run` returns the exit code (0 or 5).
+  int main(int argc, char** argv, const std::function<void()>& prepare,
+           const std::function<int()>& run);
   int main(int argc, char** argv, const std::function<int()>& run);
+
+  /// Registers files that no option names as they are. While the tool runs they are checked at
+  /// once: to be called before the work. Throw what check_files and check_places throw.
+  void reads(const std::vector<NamedFile>& files);
+  void writes(const std::vector<NamedFile>& files);
 
   /// A bar on stderr when that is a terminal and -q is absent; otherwise empty.
   Progress progress(const std::string& what) const;
@@ -44,8 +57,13 @@ class Tool : public Command {
   void report(const Json& json) const;
 
  private:
+  Option& declare_output(const std::string& description, bool required);
+  void check_all_files() const;
+
   CommonOptions common_;
   std::string example_;
+  std::vector<NamedFile> inputs_, outputs_;
+  bool is_running_ = false;
 };
 
 }  // namespace viewcell

@@ -2,7 +2,6 @@
 #include <algorithm>
 
 #include "base/error.h"
-#include "common/files.h"
 #include "common/tool.h"
 #include "image/io.h"
 #include "report/contact_sheet.h"
@@ -22,7 +21,8 @@ struct Arguments {
 void declare(Tool& tool, Arguments& arguments) {
   tool.add_option("PICTURE", &arguments.pictures,
                   "pictures of one size, row by row; an empty word leaves its place blank")
-      .required();
+      .required()
+      .reads("picture %, which is read");
   tool.add_option("--note", &arguments.notes,
                   "words under a picture; once for each, in the same order; may be fewer")
       .one_each();
@@ -61,20 +61,15 @@ std::vector<ImageRgba8> read_pictures(const std::vector<std::string>& files) {
   return pictures;
 }
 
-void check_paths(const Tool& tool, const Arguments& arguments) {
-  const CommonOptions& common = tool.common();
-  if (common.output == "-") throw UsageError("-o names a file");
-  check_ending({"-o", common.output}, {".png"}, "a PNG");
-  std::vector<NamedFile> inputs;
-  for (const std::string& file : arguments.pictures)
-    inputs.push_back({"picture " + file + ", which is read", file});
-  check_files(inputs, {{"-o", common.output}, {"--json", common.json_file}});
+// What the command line alone shows to be wrong.
+void check_arguments(const Tool& tool, const Arguments& arguments) {
+  if (arguments.notes.size() > arguments.pictures.size())
+    throw UsageError("more --note than pictures");
+  if (tool.common().output == "-") throw UsageError("-o names a file");
+  check_ending({"-o", tool.common().output}, {".png"}, "a PNG");
 }
 
 int run(const Tool& tool, const Arguments& arguments) {
-  if (arguments.notes.size() > arguments.pictures.size())
-    throw UsageError("more --note than pictures");
-  check_paths(tool, arguments);
   std::vector<ImageRgba8> pictures = read_pictures(arguments.pictures);
   if (arguments.trim) trim_alike(pictures);
   const std::size_t n_columns = std::min(arguments.n_columns, pictures.size());
@@ -107,5 +102,7 @@ int main(int argc, char** argv) {
                       "--note '500 faces' --trim -o sheet.png");
   viewcell::Arguments arguments;
   viewcell::declare(tool, arguments);
-  return tool.main(argc, argv, [&] { return viewcell::run(tool, arguments); });
+  return tool.main(
+      argc, argv, [&] { viewcell::check_arguments(tool, arguments); },
+      [&] { return viewcell::run(tool, arguments); });
 }

@@ -1,12 +1,11 @@
 #include "depthcap/arguments.h"
 
+#include "common/scene_inputs.h"
+
 namespace viewcell {
 
 void declare_arguments(Tool& tool, DepthcapArguments& a) {
-  tool.add_option("scene", &a.scene_file, "scene.json").required();
-  tool.add_option("cells", &a.cells_file, "cells.json").required();
-  tool.add_option("--cells", &a.cell_list, "all | 3,7,10-19 | @FILE | path:path.json")
-      .show_default();
+  declare_scene_inputs(tool, &a.scene_file, &a.cells_file, &a.cell_list);
   tool.add_option("--slice", &a.slice, "I/N: every N-th of those cells, from the I-th");
   tool.add_option("--resolution", &a.density.resolution_px, "pixels per width of a side face")
       .show_default()
@@ -24,7 +23,7 @@ void declare_arguments(Tool& tool, DepthcapArguments& a) {
       .show_default()
       .check(one_of({"embree", "gl"}));
   tool.add_option("--gl", &a.gl, "of engine gl: osmesa | egl").show_default();
-  tool.add_output("folder of captures to write");
+  tool.add_output_folder("folder of captures to write", kCaptureFiles);
 }
 
 }  // namespace viewcell

@@ -9,6 +9,7 @@
 #include "capture/raster_capture.h"
 #include "capture/ray_capture.h"
 #include "common/provenance.h"
+#include "common/scene_inputs.h"
 #include "depthcap/arguments.h"
 #include "gl/context.h"
 
@@ -36,9 +37,10 @@ void with_engine(const DepthcapArguments& a, const Scene& scene, int n_threads,
   }
 }
 
-int run(const Tool& tool, const DepthcapArguments& a) {
+int run(Tool& tool, const DepthcapArguments& a) {
   const int n_threads = tool.common().n_threads;
   const Scene scene = read_scene(a.scene_file, {.n_threads = n_threads});
+  register_scene_files(tool, scene, a.scene_file);
   const CellSet cells = read_cells(a.cells_file);
   check_cells_of_scene(cells, scene, a.cells_file);
   const auto centres = centres_of(cells, select_cells(cells, a.cell_list, a.slice));

@@ -5,6 +5,7 @@
 #include "base/file.h"
 #include "cells/map.h"
 #include "common/provenance.h"
+#include "common/scene_inputs.h"
 #include "common/tool.h"
 
 namespace viewcell {
@@ -28,20 +29,24 @@ EyeHeight parse_eye_height(const std::string& text) {
 }
 
 void declare(Tool& tool, Options& options) {
-  tool.add_option("scene", &options.scene_file, "scene.json").required();
+  tool.add_option("scene", &options.scene_file, "scene.json")
+      .required()
+      .reads("the scene that is read");
   tool.add_option("--size", &options.size, "circumradius of a cell")
       .show_default()
       .check(within(1e-3, 1e6));
   tool.add_option("--eye-height", &options.eye_height, "range of the eye's heights, LO:HI")
       .show_default();
-  tool.add_option("--svg", &options.svg_file, "draw a map of cells and objects");
-  tool.add_option("--path", &options.path_file, "path.json to draw into the map");
+  tool.add_option("--svg", &options.svg_file, "draw a map of cells and objects").writes();
+  tool.add_option("--path", &options.path_file, "path.json to draw into the map")
+      .reads("the path that is read");
   tool.add_output("cells.json to write (-: stdout)");
 }
 
-int run(const Tool& tool, const Options& options) {
+int run(Tool& tool, const Options& options) {
   const EyeHeight eye_height = parse_eye_height(options.eye_height);
   const Scene scene = read_scene(options.scene_file, {.n_threads = tool.common().n_threads});
+  register_scene_files(tool, scene, options.scene_file);
   const CellSet cells = make_cells(scene, options.size, eye_height);
   const Json made_by = make_provenance(
       tool, {{"size", options.size}, {"eye_height", options.eye_height}}, {{"scene", scene.hash}});

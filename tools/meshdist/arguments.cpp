@@ -4,7 +4,6 @@
 #include <cstdio>
 
 #include "base/error.h"
-#include "common/files.h"
 
 namespace viewcell {
 namespace {
@@ -24,8 +23,9 @@ void declare_arguments(Tool& tool, MeshdistArguments& arguments) {
   DistanceOptions& options = arguments.options;
   tool.add_option("A", &arguments.a,
                   "mesh: OBJ, PLY, PLY.GZ, OFF, STL, GLB, glTF or 3DS (-: stdin)")
-      .required();
-  tool.add_option("B", &arguments.b, "the mesh to compare with it").required();
+      .required()
+      .reads("A");
+  tool.add_option("B", &arguments.b, "the mesh to compare with it").required().reads("B");
   tool.add_option("--samples", &options.n_samples, "samples on the faces of each mesh")
       .show_default()
       .check(in_range(1, 100'000'000));
@@ -34,9 +34,9 @@ void declare_arguments(Tool& tool, MeshdistArguments& arguments) {
       .check(whole_within(0, std::numeric_limits<decltype(options.seed)>::max()));
   tool.add_flag("--unit-cube", &options.unit_cube,
                 "results as if A were scaled into the unit cube, and B by the same factor");
-  tool.add_option(
-      "--color", &arguments.color,
-      "write A as PLY with distances of vertices, as colours too: green near, blue far");
+  tool.add_option("--color", &arguments.color,
+                  "write A as PLY with distances of vertices, as colours too: green near, blue far")
+      .writes();
   tool.add_option("--range", &arguments.range_text,
                   "LO:HI, distances of green and blue (default: 0 to the 99th percentile)");
   tool.add_option("--histogram", &options.n_bins,
@@ -52,11 +52,8 @@ void declare_arguments(Tool& tool, MeshdistArguments& arguments) {
   tool.add_output("write the table to this file (default -: standard output)", false);
 }
 
-void finish_arguments(const Tool& tool, MeshdistArguments& arguments) {
-  const CommonOptions& common = tool.common();
+void finish_arguments(MeshdistArguments& arguments) {
   check_ending({"--color", arguments.color}, {".ply"}, "a PLY");
-  check_files({{"A", arguments.a}, {"B", arguments.b}},
-              {{"-o", common.output}, {"--json", common.json_file}, {"--color", arguments.color}});
   if (arguments.range_text) arguments.range = parse_range(*arguments.range_text);
 }
 

@@ -21,7 +21,7 @@ struct MeshdistArguments {
 
 void declare_arguments(Tool& tool, MeshdistArguments& arguments);
 
-/// Sets range. Throws UsageError for what does not fit together, files included.
-void finish_arguments(const Tool& tool, MeshdistArguments& arguments);
+/// Sets range. Throws UsageError for what does not fit together.
+void finish_arguments(MeshdistArguments& arguments);
 
 }  // namespace viewcell

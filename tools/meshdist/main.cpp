@@ -24,8 +24,7 @@ void write_color(const Tool& tool, const MeshdistArguments& arguments, const Tri
       {"provenance " + make_provenance(tool, typed, {{"a", hashes[0]}, {"b", hashes[1]}}).dump()});
 }
 
-int run(const Tool& tool, MeshdistArguments& arguments) {
-  finish_arguments(tool, arguments);
+int run(const Tool& tool, const MeshdistArguments& arguments) {
   std::array<std::string, 2> hashes;
   const TriMesh a = read_surface(arguments.a, &hashes[0]);
   const TriMesh b = read_surface(arguments.b, &hashes[1]);
@@ -65,5 +64,7 @@ int main(int argc, char** argv) {
       "  meshdist a.ply b.ply --fail-above 0.01 --json distance.json");
   viewcell::MeshdistArguments arguments;
   viewcell::declare_arguments(tool, arguments);
-  return tool.main(argc, argv, [&] { return viewcell::run(tool, arguments); });
+  return tool.main(
+      argc, argv, [&] { viewcell::finish_arguments(arguments); },
+      [&] { return viewcell::run(tool, arguments); });
 }

@@ -3,7 +3,6 @@
 #include <filesystem>
 
 #include "base/error.h"
-#include "common/files.h"
 #include "formats/texture_file.h"
 #include "gl/context.h"
 
@@ -13,25 +12,33 @@ namespace {
 namespace fs = std::filesystem;
 
 void declare_surface(Command& command, MeshshotArguments& o) {
-  command.add_option("MESH", &o.mesh_file, "OBJ, PLY (.gz), OFF, STL, GLB, glTF or 3DS").required();
-  command.add_option(
-      "--texture", &o.texture,
-      "picture for the mesh's texture coordinates, repeated, filtered with mipmaps: a file, a "
-      "GLB's base colour, or model.glb#normal (also #emissive, #occlusion, #metallicRoughness); "
-      "textures that MESH names or holds are not read unless they are given here");
-  command.add_option(
-      "--normal-map", &o.normal_map,
-      "tangent-space normal map for the same coordinates, named as a texture is: lights relief");
+  command.add_option("MESH", &o.mesh_file, "OBJ, PLY (.gz), OFF, STL, GLB, glTF or 3DS")
+      .required()
+      .reads("the mesh that is read");
+  command
+      .add_option(
+          "--texture", &o.texture,
+          "picture for the mesh's texture coordinates, repeated, filtered with mipmaps: a file, a "
+          "GLB's base colour, or model.glb#normal (also #emissive, #occlusion, "
+          "#metallicRoughness); textures that MESH names or holds are not read unless they are "
+          "given here")
+      .reads("the texture that is read", texture_file);
+  command
+      .add_option(
+          "--normal-map", &o.normal_map,
+          "tangent-space normal map for the same coordinates, named as a texture is: lights relief")
+      .reads("the normal map that is read", texture_file);
   command
       .add_option("--normal-map-y", &o.normal_map_y,
                   "where its green points: up (OpenGL, glTF) | down (Direct3D)")
       .show_default()
       .needs("--normal-map")
       .check(one_of({"up", "down"}));
-  command.add_option(
-      "--index-map", &o.map_file,
-      "indexing map (.exr, .tif) that the mesh's texture coordinates look up; what it holds looks "
-      "up --texture and --normal-map");
+  command
+      .add_option("--index-map", &o.map_file,
+                  "indexing map (.exr, .tif) that the mesh's texture coordinates look up; what it "
+                  "holds looks up --texture and --normal-map")
+      .reads("the indexing map that is read");
   command.add_flag("--flip-v", &o.style.flip_v,
                    "v = 0 is the texture's top row: for files whose coordinates run that way");
 }
@@ -49,9 +56,11 @@ void declare_pictures(Command& command, MeshshotArguments& o) {
 }
 
 void declare_frame(Command& command, MeshshotArguments& o) {
-  command.add_option("--like", &o.like_file,
-                     "take the frame (box and up axis) from this mesh: pictures of a simplified "
-                     "mesh, to be compared, want --like ORIGINAL");
+  command
+      .add_option("--like", &o.like_file,
+                  "take the frame (box and up axis) from this mesh: pictures of a simplified "
+                  "mesh, to be compared, want --like ORIGINAL")
+      .reads("the mesh of --like");
   command
       .add_option("--box", &o.box, "x0,y0,z0:x1,y1,z1, the frame's box in the mesh's coordinates")
       .excludes("--like");
@@ -81,7 +90,7 @@ void declare_outputs(Tool& tool, MeshshotArguments& o) {
                   "the contact sheet's file (default: DIR.sheet.png, beside the folder)");
   tool.add_flag("--no-sheet", &o.no_sheet, "write no contact sheet").excludes("--sheet");
   tool.add_option("--gl", &o.gl, "osmesa | egl").show_default();
-  tool.add_output("folder DIR of pictures to write, view-00.png and on");
+  tool.add_output_folder("folder DIR of pictures to write, view-00.png and on", {"view-*.png"});
 }
 
 }  // namespace
@@ -94,10 +103,9 @@ void declare_arguments(Tool& tool, MeshshotArguments& o) {
   declare_outputs(tool, o);
 }
 
-void finish_arguments(const Tool& tool, MeshshotArguments& o) {
+void finish_arguments(Tool& tool, MeshshotArguments& o) {
   if (o.style.size_px > kMostSamplesPerSide / o.style.samples)
     throw UsageError("--size times --samples is above " + std::to_string(kMostSamplesPerSide));
-  if (tool.common().output == "-") throw UsageError("-o names a folder");
   if (!o.map_file.empty() && o.texture.empty() && o.normal_map.empty())
     throw UsageError("--index-map requires --texture or --normal-map");
   if (!o.box.empty()) parse_box(o.box);
@@ -112,13 +120,7 @@ void finish_arguments(const Tool& tool, MeshshotArguments& o) {
     o.shots.sheet = o.sheet.empty() ? sheet_beside(o.shots.folder) : fs::path(o.sheet);
   const std::string sheet = o.shots.sheet.string();
   check_ending({"--sheet", sheet}, {".png"}, "a PNG");
-  check_files({{"the mesh that is read", o.mesh_file},
-               {"the texture that is read", texture_file(o.texture).string()},
-               {"the normal map that is read", texture_file(o.normal_map).string()},
-               {"the indexing map that is read", o.map_file},
-               {"the mesh of --like", o.like_file}},
-              {{"--sheet", sheet}, {"--json", tool.common().json_file}});
-  check_shot_folder(o.shots.folder, o.shots.n_views);
+  tool.writes({{"--sheet", sheet}});
 }
 
 }  // namespace viewcell

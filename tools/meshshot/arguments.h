@@ -19,8 +19,7 @@ struct MeshshotArguments {
 
 void declare_arguments(Tool& tool, MeshshotArguments& arguments);
 
-/// Sets style and shots. What was typed is checked, and what stands in the folder, before anything
-/// is read. Throws UsageError.
-void finish_arguments(const Tool& tool, MeshshotArguments& arguments);
+/// Sets style and shots, and registers the sheet. Throws UsageError.
+void finish_arguments(Tool& tool, MeshshotArguments& arguments);
 
 }  // namespace viewcell

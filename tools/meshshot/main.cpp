@@ -62,7 +62,7 @@ Json format_provenance(const Tool& tool, const MeshshotArguments& o) {
 
 int run(const Tool& tool, MeshshotArguments& o) {
   Stopwatch watch;
-  finish_arguments(tool, o);
+  check_shot_folder(o.shots.folder, o.shots.n_views);
   const TriMesh mesh = read_mesh(o.mesh_file, &o.mesh_hash);
   const MeshFrame frame = choose_frame(o, mesh);
   const Textures textures = read_textures(o, mesh);
@@ -106,5 +106,7 @@ int main(int argc, char** argv) {
       "  psnr a b");
   viewcell::MeshshotArguments arguments;
   viewcell::declare_arguments(tool, arguments);
-  return tool.main(argc, argv, [&] { return viewcell::run(tool, arguments); });
+  return tool.main(
+      argc, argv, [&] { viewcell::finish_arguments(tool, arguments); },
+      [&] { return viewcell::run(tool, arguments); });
 }

@@ -25,10 +25,12 @@ void declare(Tool& tool, Options& options) {
   tool.add_option("--preset", &options.preset, "demo (4m, short walk), 2m, 4m or 8m")
       .show_default();
   tool.add_option("--models", &options.models_folder,
-                  "folder of real models (models.json, or files named by kind)");
+                  "folder of real models (models.json, or files named by kind)")
+      .reads("the folder of models that is read", {"*"});
   tool.add_option("--seed", &options.seed, "of all that is random").show_default();
   tool.add_flag("--list", &options.list, "print the kinds of statue and stop");
-  tool.add_output("folder to write: scene.json, path.json, meshes/", false);
+  tool.add_output_folder("folder to write: scene.json, path.json, meshes/",
+                         {"scene.json", "path.json", "meshes/*"}, false);
 }
 
 // Kind, triangles, width, depth, height, counts in the 2M, 4M and 8M parks, tab-separated.

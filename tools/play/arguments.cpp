@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "base/error.h"
+#include "common/scene_inputs.h"
 
 namespace viewcell {
 namespace {
@@ -48,8 +49,10 @@ PlayerOptions make_player_options(const Tool& tool, const PlayArguments& o) {
 }  // namespace
 
 void declare_arguments(Tool& tool, PlayArguments& o) {
-  tool.add_option("bundle", &o.bundle, "folder of the bundle").required();
-  tool.add_option("--path", &o.path_file, "path.json").required();
+  tool.add_option("bundle", &o.bundle, "folder of the bundle")
+      .required()
+      .reads("the bundle that is read", kBundleFiles);
+  tool.add_option("--path", &o.path_file, "path.json").required().reads("the path that is read");
   tool.add_option("--modes", &o.modes, "of " + list_modes()).show_default();
   tool.add_option("--reference", &o.reference, "mode that pictures are compared with")
       .show_default();
@@ -61,17 +64,20 @@ void declare_arguments(Tool& tool, PlayArguments& o) {
       .show_default()
       .check(in_range(1, 100000));
   tool.add_option("--size", &o.size, "WIDTHxHEIGHT in px").show_default();
-  tool.add_option("--save", &o.session.save, "folder to write frames to, as PNG");
+  tool.add_option("--save", &o.session.save, "folder to write frames to, as PNG")
+      .writes({"*/frame-*.png"});
   tool.add_option("--every", &o.session.save_every, "save every K-th frame")
       .show_default()
       .check(in_range(1, 100000));
   tool.add_option("--quality-every", &o.session.quality_every, "compare every K-th frame")
       .show_default()
       .check(in_range(1, 100000));
-  tool.add_option("--stats", &o.stats_file, "write statistics as JSON (-: stdout)");
-  tool.add_option("--table", &o.table_file, "write the table of modes as Markdown (-: stdout)");
-  tool.add_option("--plots", &o.plots_folder, "folder to write plots to, as SVG");
-  tool.add_option("--sheet", &o.sheet_file, "write a contact sheet of chosen frames, as PNG");
+  tool.add_option("--stats", &o.stats_file, "write statistics as JSON (-: stdout)").writes();
+  tool.add_option("--table", &o.table_file, "write the table of modes as Markdown (-: stdout)")
+      .writes();
+  tool.add_option("--plots", &o.plots_folder, "folder to write plots to, as SVG").writes({"*.svg"});
+  tool.add_option("--sheet", &o.sheet_file, "write a contact sheet of chosen frames, as PNG")
+      .writes();
   tool.add_option("--sheet-rows", &o.session.n_sheet_rows, "frames on it").show_default();
   tool.add_option("--gl", &o.gl, "osmesa | egl").show_default();
   tool.add_option("--texture-memory", &o.texture_mb, "MB of GL memory for textures")

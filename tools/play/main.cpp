@@ -10,8 +10,7 @@
 namespace viewcell {
 namespace {
 
-int run(const Tool& tool, PlayArguments& o) {
-  const PlayerOptions player_options = finish_arguments(tool, o);
+int run(const Tool& tool, const PlayArguments& o, const PlayerOptions& player_options) {
   const CameraPath path = read_path(o.path_file);
   const Bundle bundle(o.bundle, tool.common().n_threads);
   Player player(bundle, player_options);
@@ -36,5 +35,8 @@ int main(int argc, char** argv) {
                       "--stats stats.json --sheet sheet.png");
   viewcell::PlayArguments arguments;
   viewcell::declare_arguments(tool, arguments);
-  return tool.main(argc, argv, [&] { return viewcell::run(tool, arguments); });
+  viewcell::PlayerOptions options;
+  return tool.main(
+      argc, argv, [&] { options = viewcell::finish_arguments(tool, arguments); },
+      [&] { return viewcell::run(tool, arguments, options); });
 }

@@ -4,7 +4,6 @@
 
 #include "base/error.h"
 #include "base/file.h"
-#include "common/files.h"
 #include "common/tool.h"
 #include "report/plot_csv.h"
 
@@ -22,7 +21,8 @@ void declare(Tool& tool, Arguments& arguments) {
   tool.add_option("CSV", &arguments.table,
                   "comma-separated values with a header, a row a point (-: standard input); empty "
                   "fields and nan break a line")
-      .required();
+      .required()
+      .reads("the table that is read");
   tool.add_option("--x", &o.x, "column of what runs to the right").required();
   tool.add_option("--y", &o.y, "column of what goes up; several: panels side by side")
       .required()
@@ -45,7 +45,7 @@ void declare(Tool& tool, Arguments& arguments) {
 }
 
 // What the command line alone shows to be wrong.
-void settle_options(Arguments& arguments) {
+void settle_options(const Tool& tool, Arguments& arguments) {
   CsvPlotOptions& o = arguments.options;
   o.style = arguments.points  ? PlotStyle::points
             : arguments.steps ? PlotStyle::steps
@@ -54,6 +54,7 @@ void settle_options(Arguments& arguments) {
   if (o.log_y && !(o.y_most > 0)) throw UsageError("--y-most is not above 0, as --log-y needs");
   if (std::set<std::string>(o.y.begin(), o.y.end()).size() < o.y.size())
     throw UsageError("--y names a column twice");
+  check_ending({"-o", tool.common().output}, {".svg"}, "an SVG");
 }
 
 Json format_panels(const Plot& plot, const CsvPlotOptions& options) {
@@ -65,15 +66,10 @@ Json format_panels(const Plot& plot, const CsvPlotOptions& options) {
   return panels;
 }
 
-int run(const Tool& tool, Arguments& arguments) {
-  settle_options(arguments);
-  const std::string& output = tool.common().output;
-  check_ending({"-o", output}, {".svg"}, "an SVG");
-  check_files({{"the table that is read", arguments.table}},
-              {{"-o", output}, {"--json", tool.common().json_file}});
+int run(const Tool& tool, const Arguments& arguments) {
   const CsvTable table = parse_csv(read_file(arguments.table), arguments.table);
   const Plot plot = make_csv_plot(table, arguments.options);
-  write_file(output, format_svg(plot));
+  write_file(tool.common().output, format_svg(plot));
   tool.report({{"rows", table.rows.size()}, {"panels", format_panels(plot, arguments.options)}});
   return 0;
 }
@@ -91,5 +87,7 @@ int main(int argc, char** argv) {
       "  plot histogram.csv --x from --y percent --by metric --steps -o histogram.svg");
   viewcell::Arguments arguments;
   viewcell::declare(tool, arguments);
-  return tool.main(argc, argv, [&] { return viewcell::run(tool, arguments); });
+  return tool.main(
+      argc, argv, [&] { viewcell::settle_options(tool, arguments); },
+      [&] { return viewcell::run(tool, arguments); });
 }

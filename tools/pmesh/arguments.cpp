@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "common/files.h"
 
 namespace viewcell {
 namespace {
@@ -13,7 +12,9 @@ constexpr std::uint64_t kMostFaces = 4'000'000'000;
 
 void declare_build(Command& command, PmeshArguments& a) {
   Command& build = command.add_command("build", "collapse a mesh and keep every step");
-  build.add_option("MODEL", &a.model, "mesh: OBJ, PLY, OFF, STL, glTF, 3DS").required();
+  build.add_option("MODEL", &a.model, "mesh: OBJ, PLY, OFF, STL, glTF, 3DS")
+      .required()
+      .reads("the mesh that is read");
   build
       .add_option("--metric", &a.metric,
                   "qem3: quadrics; qem5: of position and texture; aps: texture deviation; mapping: "
@@ -124,26 +125,7 @@ void check_texture_options(const PmeshArguments& a) {
                      (a.build.metric == MetricKind::mapping ? "; --placement full does not" : ""));
 }
 
-}  // namespace
-
-void declare_arguments(Tool& tool, PmeshArguments& a) {
-  declare_build(tool, a);
-  Command& extract = tool.add_command("extract", "take a mesh of some size out of a .pm");
-  extract.add_option("PM", &a.pm, "progressive mesh").required();
-  extract.add_option("--faces", &a.n_faces, "the finest level of at most so many faces")
-      .check(whole_within(1, kMostFaces));
-  extract
-      .add_option("--within", &a.within,
-                  "the coarsest level that is surely no farther than this from the input, in units "
-                  "of the mesh; for a .pm with bounds (see build --track-error)")
-      .check(within(0, 1e30))
-      .excludes("--faces");
-  Command& info = tool.add_command("info", "say what a .pm holds");
-  info.add_option("PM", &a.pm, "progressive mesh").required();
-  tool.add_output("file to write: .pm (build), .ply or .obj (extract); -: standard output", false);
-}
-
-void finish_build(Tool& tool, PmeshArguments& a) {
+void finish_build(const Tool& tool, PmeshArguments& a) {
   const CommonOptions& common = tool.common();
   if (common.output.empty()) throw UsageError("build needs -o");
   BuildOptions& options = a.build;
@@ -160,9 +142,6 @@ void finish_build(Tool& tool, PmeshArguments& a) {
   check_metric_options(tool.command("build"), a);
   check_texture_options(a);
   check_ending({"-o", common.output}, {".pm"}, "a progressive mesh");
-  const std::vector<NamedFile> outputs{{"-o", common.output}, {"--json", common.json_file}};
-  check_files({{"the mesh that is read", a.model}}, outputs);
-  check_places(outputs);
 }
 
 void check_extract(const Tool& tool, const PmeshArguments& a) {
@@ -170,12 +149,31 @@ void check_extract(const Tool& tool, const PmeshArguments& a) {
   if (common.output.empty()) throw UsageError("extract needs -o");
   if (!a.n_faces && !a.within) throw UsageError("extract needs --faces or --within");
   check_ending({"-o", common.output}, {".ply", ".obj"}, "a PLY or an OBJ");
-  check_files({{"the progressive mesh that is read", a.pm}},
-              {{"-o", common.output}, {"--json", common.json_file}});
 }
 
-void check_info(const Tool& tool, const PmeshArguments& a) {
-  check_files({{"the progressive mesh that is read", a.pm}}, {{"--json", tool.common().json_file}});
+}  // namespace
+
+void declare_arguments(Tool& tool, PmeshArguments& a) {
+  declare_build(tool, a);
+  Command& extract = tool.add_command("extract", "take a mesh of some size out of a .pm");
+  const std::string pm = "the progressive mesh that is read";
+  extract.add_option("PM", &a.pm, "progressive mesh").required().reads(pm);
+  extract.add_option("--faces", &a.n_faces, "the finest level of at most so many faces")
+      .check(whole_within(1, kMostFaces));
+  extract
+      .add_option("--within", &a.within,
+                  "the coarsest level that is surely no farther than this from the input, in units "
+                  "of the mesh; for a .pm with bounds (see build --track-error)")
+      .check(within(0, 1e30))
+      .excludes("--faces");
+  Command& info = tool.add_command("info", "say what a .pm holds");
+  info.add_option("PM", &a.pm, "progressive mesh").required().reads(pm);
+  tool.add_output("file to write: .pm (build), .ply or .obj (extract); -: standard output", false);
+}
+
+void finish_arguments(const Tool& tool, PmeshArguments& a) {
+  if (tool.command("build").is_given()) finish_build(tool, a);
+  if (tool.command("extract").is_given()) check_extract(tool, a);
 }
 
 }  // namespace viewcell

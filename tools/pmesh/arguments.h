@@ -15,16 +15,14 @@ struct PmeshArguments {
   bool unweighted = false, mean = false, exact = false, no_texture = false, flip_v = false;
   std::optional<std::size_t> n_faces;  ///< of extract
   std::optional<double> within;        ///< of extract: mesh units
-  bool stops_at_faces = false;         ///< after finish_build
-  BuildOptions build;                  ///< after finish_build
+  bool stops_at_faces = false;         ///< after finish_arguments
+  BuildOptions build;                  ///< after finish_arguments
 };
 
 void declare_arguments(Tool& tool, PmeshArguments& arguments);
 
-/// Sets arguments.build from the words typed at build. Throw UsageError for what does not fit
-/// together, files included.
-void finish_build(Tool& tool, PmeshArguments& arguments);
-void check_extract(const Tool& tool, const PmeshArguments& arguments);
-void check_info(const Tool& tool, const PmeshArguments& arguments);
+/// Sets arguments.build from the words typed at build. Throws UsageError for what does not fit
+/// together.
+void finish_arguments(const Tool& tool, PmeshArguments& arguments);
 
 }  // namespace viewcell

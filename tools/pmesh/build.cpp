@@ -60,8 +60,7 @@ const char* advise(const PmeshArguments& a, const CollapseCounts& counts) {
 
 }  // namespace
 
-int build(Tool& tool, PmeshArguments& a) {
-  finish_build(tool, a);
+int build(const Tool& tool, const PmeshArguments& a) {
   const BuildOptions& options = a.build;
   Stopwatch watch;
   std::string hash;

@@ -5,7 +5,7 @@
 
 namespace viewcell {
 
-int build(Tool& tool, PmeshArguments& arguments);
+int build(const Tool& tool, const PmeshArguments& arguments);
 int extract(const Tool& tool, const PmeshArguments& arguments);
 int info(const Tool& tool, const PmeshArguments& arguments);
 

@@ -28,7 +28,6 @@ void choose_level(const PmeshArguments& a, ProgressiveMesh& mesh) {
 }  // namespace
 
 int extract(const Tool& tool, const PmeshArguments& a) {
-  check_extract(tool, a);
   ProgressiveMesh mesh(read_pm(a.pm));
   // From the finest level on, as a program that draws goes.
   mesh.set_level(mesh.n_splits());

@@ -14,7 +14,6 @@ Json base_error(const ProgressiveRecord& record) {
 }  // namespace
 
 int info(const Tool& tool, const PmeshArguments& a) {
-  check_info(tool, a);
   const ProgressiveRecord record = read_pm(a.pm);
   const Json made_by = record.made_by.empty() ? Json() : Json::parse(record.made_by);
   const Json report{{"faces", record.faces.size()},

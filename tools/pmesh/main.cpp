@@ -12,7 +12,8 @@ int main(int argc, char** argv) {
                       "  pmesh info bunny.pm");
   viewcell::PmeshArguments arguments;
   viewcell::declare_arguments(tool, arguments);
-  return tool.main(argc, argv, [&] {
+  const auto prepare = [&] { viewcell::finish_arguments(tool, arguments); };
+  return tool.main(argc, argv, prepare, [&] {
     if (tool.command("build").is_given()) return viewcell::build(tool, arguments);
     if (tool.command("extract").is_given()) return viewcell::extract(tool, arguments);
     return viewcell::info(tool, arguments);

@@ -1,55 +1,19 @@
 // psnr: how far pictures are from a reference.
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
-#include <limits>
 #include <string>
 
 #include "base/error.h"
 #include "base/file.h"
-#include "common/tool.h"
+#include "psnr/arguments.h"
 #include "psnr/index_maps.h"
-#include "report/compare_files.h"
 
 namespace viewcell {
 namespace {
 
 namespace fs = std::filesystem;
 
-struct Arguments {
-  std::string reference, tested, inside;
-  bool index_maps = false;
-  double fail_below_db = -std::numeric_limits<double>::infinity();
-  CompareFilesOptions options;
-};
-
-void declare(Tool& tool, Arguments& arguments) {
-  tool.add_option("REFERENCE", &arguments.reference,
-                  "picture (PNG, JPEG, EXR, TIFF, WebP; -: standard input) or folder of pictures")
-      .required();
-  tool.add_option("TESTED", &arguments.tested,
-                  "the picture to judge, or a folder with the same file names")
-      .required();
-  tool.add_flag("--index-maps", &arguments.index_maps,
-                "both are indexing maps (.exr, .tif): RMS and largest distance "
-                "in texels, share within one texel")
-      .excludes("--fail-below")
-      .excludes("--diff");
-  tool.add_option("--inside", &arguments.inside,
-                  "of indexing maps, only texels inside the charts of this mesh")
-      .needs("--index-maps");
-  tool.add_option("--fail-below", &arguments.fail_below_db,
-                  "exit with 5 when the PSNR of any pair is below this many dB");
-  tool.add_option("--diff", &arguments.options.difference,
-                  "write the amplified difference: a PNG, or a folder of them for folders");
-  tool.add_option("--gain", &arguments.options.difference_gain, "what --diff multiplies by")
-      .show_default();
-  tool.add_flag("--ssim,!--no-ssim", &arguments.options.measures.ssim,
-                "measure SSIM (default: yes)");
-  tool.add_output("write the table to this file (default -: standard output)", false);
-}
-
-std::vector<NamedDistance> compare(const Tool& tool, const Arguments& arguments, bool folders) {
+std::vector<NamedDistance> compare(const Tool& tool, const PsnrArguments& arguments, bool folders) {
   if (folders)
     return compare_folders(arguments.reference, arguments.tested, arguments.options,
                            tool.common().n_threads, tool.progress("pair"));
@@ -57,12 +21,7 @@ std::vector<NamedDistance> compare(const Tool& tool, const Arguments& arguments,
       {arguments.tested, compare_files(arguments.reference, arguments.tested, arguments.options)}};
 }
 
-int run(const Tool& tool, const Arguments& arguments) {
-  if (arguments.reference == "-" && arguments.tested == "-")
-    throw UsageError("only one of the two pictures can be standard input");
-  if (!(arguments.options.difference_gain >= 0))
-    throw UsageError("--gain is not a number of at least 0");
-  if (std::isnan(arguments.fail_below_db)) throw UsageError("--fail-below is not a number");
+int run(const Tool& tool, const PsnrArguments& arguments) {
   if (arguments.index_maps) {
     compare_index_map_files(tool, arguments.reference, arguments.tested, arguments.inside);
     return 0;
@@ -99,7 +58,9 @@ int main(int argc, char** argv) {
       "psnr frustum/0001.png hybrid/0001.png --diff difference.png\n"
       "  psnr frustum/ hybrid/ --fail-below 37 --json distances.json\n"
       "  psnr before.exr after.exr --index-maps --inside head.obj");
-  viewcell::Arguments arguments;
-  viewcell::declare(tool, arguments);
-  return tool.main(argc, argv, [&] { return viewcell::run(tool, arguments); });
+  viewcell::PsnrArguments arguments;
+  viewcell::declare_arguments(tool, arguments);
+  return tool.main(
+      argc, argv, [&] { viewcell::check_arguments(tool, arguments); },
+      [&] { return viewcell::run(tool, arguments); });
 }

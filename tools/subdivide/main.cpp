@@ -5,7 +5,6 @@
 #include <string>
 
 #include "base/error.h"
-#include "common/files.h"
 #include "common/provenance.h"
 #include "common/tool.h"
 #include "formats/mesh_file.h"
@@ -25,7 +24,9 @@ const std::vector<std::string> kSchemes = {"loop", "midpoint"};              // 
 const std::vector<std::string> kTexcoords = {"smooth", "inside", "linear"};  // TexcoordRule
 
 void declare(Tool& tool, Arguments& a) {
-  tool.add_option("MESH", &a.mesh, "OBJ, PLY (.gz), OFF, STL, GLB, glTF or 3DS").required();
+  tool.add_option("MESH", &a.mesh, "OBJ, PLY (.gz), OFF, STL, GLB, glTF or 3DS")
+      .required()
+      .reads("the mesh that is read");
   tool.add_option("--times", &a.options.n_times, "how often; each makes four triangles of one")
       .required()
       .check(whole_within(0, 13));
@@ -70,13 +71,14 @@ Json format_report(const Tool& tool, const Arguments& a, const TriMesh& mesh,
   return report;
 }
 
-int run(const Tool& tool, Arguments& a) {
-  const std::string& output = tool.common().output;
-  check_ending({"-o", output}, {".obj", ".ply"}, "an OBJ or a PLY");
-  check_files({{"the mesh that is read", a.mesh}},
-              {{"-o", output}, {"--json", tool.common().json_file}});
+void finish_arguments(const Tool& tool, Arguments& a) {
+  check_ending({"-o", tool.common().output}, {".obj", ".ply"}, "an OBJ or a PLY");
   a.options.scheme = static_cast<SubdivisionScheme>(place_of(a.scheme, kSchemes));
   a.options.texcoords = static_cast<TexcoordRule>(place_of(a.texcoords, kTexcoords));
+}
+
+int run(const Tool& tool, const Arguments& a) {
+  const std::string& output = tool.common().output;
   std::string hash;
   const TriMesh mesh = read_mesh(a.mesh, &hash);
   const Subdivision out = subdivide(mesh, a.options, a.mesh);
@@ -105,5 +107,7 @@ int main(int argc, char** argv) {
       "subdivide spot.obj --times 2 -o spot-fine.obj");
   viewcell::Arguments arguments;
   viewcell::declare(tool, arguments);
-  return tool.main(argc, argv, [&] { return viewcell::run(tool, arguments); });
+  return tool.main(
+      argc, argv, [&] { viewcell::finish_arguments(tool, arguments); },
+      [&] { return viewcell::run(tool, arguments); });
 }

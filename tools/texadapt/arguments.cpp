@@ -5,7 +5,6 @@
 #include <tuple>
 
 #include "base/error.h"
-#include "common/files.h"
 #include "formats/texture_file.h"
 
 namespace viewcell {
@@ -28,9 +27,10 @@ void declare_levels(Command& command, TexadaptArguments& a) {
       "--from", &a.start_text,
       "N=MAP: start from this indexing map (.exr, .tif) of the level of N faces, not "
       "from the finest level");
-  command.add_option("--log", &a.log, "write the adaptations to this file: .adapt");
+  command.add_option("--log", &a.log, "write the adaptations to this file: .adapt").writes();
   command.add_option("--replay", &a.replay, "take the adaptations from such a file")
-      .excludes("--log");
+      .excludes("--log")
+      .reads("the log that is read");
 }
 
 void declare_outputs(Command& command, TexadaptArguments& a) {
@@ -177,26 +177,27 @@ void check_combinations(const TexadaptArguments& a) {
     throw UsageError("--format glb holds the mesh: no --mesh");
 }
 
-void check_all_files(const Tool& tool, const TexadaptArguments& a) {
-  const CommonOptions& common = tool.common();
+// Files with more than their path in the words typed, and those of every level.
+void register_files(Tool& tool, const TexadaptArguments& a) {
+  const std::string& output = tool.common().output;
   std::vector<NamedFile> inputs{
-      {"the progressive mesh that is read", a.pm},
-      {"the texture that is read", texture_file(a.texture).string()},
       {"the normal map that is read", texture_file(a.normal_map.from).string()},
-      {"the log that is read", a.replay},
       {"the map that is read", a.start}};
-  std::vector<NamedFile> outputs{{"--log", a.log}, {"--json", common.json_file}};
+  std::vector<NamedFile> outputs;
   for (const FurtherTexture& f : a.further)
     inputs.push_back({"a texture that is read", texture_file(f.from).string()});
   for (const std::size_t level : a.levels) {
-    outputs.push_back({"-o", a.name_at(common.output, level)});
+    outputs.push_back({"-o", a.name_at(output, level)});
     outputs.push_back({"--mesh", a.name_at(a.mesh, level)});
     outputs.push_back({"--index-map", a.name_at(a.index_map, level)});
     outputs.push_back({"--normal-map", a.name_at(a.normal_map.to, level)});
     for (const FurtherTexture& f : a.further) outputs.push_back({"--also", a.name_at(f.to, level)});
   }
-  check_files(inputs, outputs);
-  check_places(outputs);
+  tool.reads(inputs);
+  tool.writes(outputs);
+}
+
+void check_endings(const TexadaptArguments& a) {
   if (!a.mesh.empty()) check_ending({"--mesh", a.mesh}, {".ply", ".obj"}, "a mesh");
   if (!a.index_map.empty())
     check_ending({"--index-map", a.index_map}, {".exr", ".tif", ".tiff"}, "an indexing map");
@@ -217,20 +218,22 @@ std::string TexadaptArguments::name_at(const std::string& file, std::size_t leve
 
 void declare_arguments(Tool& tool, TexadaptArguments& a) {
   tool.add_option("PM", &a.pm, "progressive mesh with texture coordinates (pmesh build)")
-      .required();
+      .required()
+      .reads("the progressive mesh that is read");
   tool.add_option(
           "TEXTURE", &a.texture,
           "its texture; row 0 is v = 1. A picture, or a GLB's (model.glb, model.glb#normal)")
-      .required();
+      .required()
+      .reads("the texture that is read", texture_file);
   declare_levels(tool, a);
   declare_outputs(tool, a);
   declare_engine(tool, a);
-  tool.add_output(
+  tool.add_output_stem(
       "the texture for that level: .png; with its mesh: .glb; as an indexing map: .exr "
       "or .tif (-: a PNG to standard output)");
 }
 
-void finish_arguments(const Tool& tool, TexadaptArguments& a) {
+void finish_arguments(Tool& tool, TexadaptArguments& a) {
   if (a.faces)
     a.levels = {*a.faces};
   else if (!a.level_list.empty())
@@ -252,7 +255,8 @@ void finish_arguments(const Tool& tool, TexadaptArguments& a) {
   if (a.names_levels && a.mesh.empty() && a.format != LevelFormat::glb &&
       tool.common().output != "-")
     a.mesh = std::filesystem::path(tool.common().output).replace_extension(".ply").string();
-  check_all_files(tool, a);
+  check_endings(a);
+  register_files(tool, a);
 }
 
 }  // namespace viewcell

@@ -47,7 +47,7 @@ struct TexadaptArguments {
 
 void declare_arguments(Tool& tool, TexadaptArguments& arguments);
 
-/// Throws UsageError for what does not fit together, files included.
-void finish_arguments(const Tool& tool, TexadaptArguments& arguments);
+/// Registers the files of all levels. Throws UsageError for what does not fit together.
+void finish_arguments(Tool& tool, TexadaptArguments& arguments);
 
 }  // namespace viewcell

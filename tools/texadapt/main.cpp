@@ -7,7 +7,6 @@ namespace viewcell {
 namespace {
 
 int run(const Tool& tool, TexadaptArguments& a) {
-  finish_arguments(tool, a);
   const TexadaptInputs in = read_inputs(a);
   const Json report =
       a.engine == AdaptEngine::rebake ? rebake_levels(tool, a, in) : adapt_levels(tool, a, in);
@@ -36,5 +35,7 @@ int main(int argc, char** argv) {
       "  texadapt head.pm skin.png --levels 8000,2000,500 -o head.glb");
   viewcell::TexadaptArguments arguments;
   viewcell::declare_arguments(tool, arguments);
-  return tool.main(argc, argv, [&] { return viewcell::run(tool, arguments); });
+  return tool.main(
+      argc, argv, [&] { viewcell::finish_arguments(tool, arguments); },
+      [&] { return viewcell::run(tool, arguments); });
 }

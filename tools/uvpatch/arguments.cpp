@@ -4,7 +4,6 @@
 #include <charconv>
 
 #include "base/error.h"
-#include "common/files.h"
 #include "image/header.h"
 
 namespace viewcell {
@@ -40,7 +39,9 @@ void declare_arguments(Tool& tool, UvpatchArguments& a) {
   const auto number = [&](const char* flag, int& value, int most, const char* what) {
     tool.add_option(flag, &value, what).show_default().check(in_range(2, most));
   };
-  tool.add_option("MESH", &a.mesh, "PLY, OBJ, OFF, STL, GLB or 3DS").required();
+  tool.add_option("MESH", &a.mesh, "PLY, OBJ, OFF, STL, GLB or 3DS")
+      .required()
+      .reads("the mesh that is read");
   tool.add_option("--faces", &a.faces, "how many triangles; all: of a component that is a disk")
       .required();
   tool.add_option("--around", &a.patch.around, "vertex of the file, from 0, to grow around");
@@ -56,13 +57,21 @@ void declare_arguments(Tool& tool, UvpatchArguments& a) {
   tool.add_option("--relax", &a.patch.relax_steps,
                   "at most so many steps against stretch (20; uniform: 0)")
       .check(in_range(0, 1000));
-  tool.add_option("--texture", &a.texture, "picture to copy instead of a checker board");
+  tool.add_option("--texture", &a.texture, "picture to copy instead of a checker board")
+      .reads("the texture that is read");
   number("--texture-size", a.size_px, kMaxImageSidePx, "pixels a side of the checker board");
   number("--squares", a.n_squares, kMaxImageSidePx, "squares a side of the checker board");
   tool.add_output("OBJ to write, MTL and picture beside it (-: the OBJ alone)");
 }
 
-void finish_arguments(const CommonOptions& common, UvpatchArguments& a) {
+void register_beside(Tool& tool, const std::string& extension) {
+  std::filesystem::path output = tool.common().output;
+  if (output != "-")
+    tool.writes(
+        {{"the " + extension + " beside -o", output.replace_extension(extension).string()}});
+}
+
+void finish_arguments(Tool& tool, UvpatchArguments& a) {
   a.patch.n_faces = parse_faces(a.faces);
   const int up = place_of(a.up, kUp);
   a.patch.up = glm::dvec3(0);
@@ -72,9 +81,9 @@ void finish_arguments(const CommonOptions& common, UvpatchArguments& a) {
   if (a.patch.strength && a.distort != "swirl" && a.distort != "stretch")
     throw UsageError("--strength is for --distort swirl and stretch");
   if (a.n_squares > a.size_px) throw UsageError("--squares is more than --texture-size");
-  check_ending({"-o", common.output}, {".obj"}, "an OBJ");
-  check_files({{"the mesh that is read", a.mesh}, {"the texture that is read", a.texture}},
-              {{"-o", common.output}, {"--json", common.json_file}});
+  check_ending({"-o", tool.common().output}, {".obj"}, "an OBJ");
+  register_beside(tool, ".mtl");
+  if (a.texture.empty()) register_beside(tool, ".png");
 }
 
 }  // namespace viewcell

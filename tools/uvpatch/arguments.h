@@ -16,7 +16,11 @@ struct UvpatchArguments {
 
 void declare_arguments(Tool& tool, UvpatchArguments& arguments);
 
-/// Sets arguments.patch from the words typed. Throws UsageError for what does not fit together.
-void finish_arguments(const CommonOptions& common, UvpatchArguments& arguments);
+/// Sets arguments.patch from the words typed, and registers what is written beside -o, but for a
+/// picture that is copied. Throws UsageError for what does not fit together.
+void finish_arguments(Tool& tool, UvpatchArguments& arguments);
+
+/// Registers the file beside -o with this extension, unless -o is standard output.
+void register_beside(Tool& tool, const std::string& extension);
 
 }  // namespace viewcell

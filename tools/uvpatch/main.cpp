@@ -20,7 +20,8 @@ namespace {
 
 namespace fs = std::filesystem;
 void write_files(const Tool& tool, const UvpatchArguments& a, const std::string& mesh_hash,
-                 const std::string& picture, const TexturedPatch& patch) {
+                 const std::string& picture, const std::string& extension,
+                 const TexturedPatch& patch) {
   const fs::path output = tool.common().output;
   Json inputs = {{"mesh", mesh_hash}};
   if (!picture.empty()) inputs["texture"] = hash_hex(picture);
@@ -33,8 +34,6 @@ void write_files(const Tool& tool, const UvpatchArguments& a, const std::string&
     if (!picture.empty()) return write_file(file, picture);
     write_png(file, make_checker(a.size_px, a.n_squares), PngAlpha::drop);
   };
-  const std::string extension =
-      picture.empty() ? ".png" : extension_of(check_image_header(picture, a.texture));
   write_textured_obj(output, patch.patch.mesh, extension, write_picture, comments);
 }
 
@@ -50,16 +49,17 @@ Json format_report(const TexturedPatch& patch) {
           {"flipped", patch.stretch.n_flipped}};
 }
 
-int run(const Tool& tool, UvpatchArguments& a) {
-  finish_arguments(tool.common(), a);
-  std::string picture;
+int run(Tool& tool, const UvpatchArguments& a) {
+  std::string picture, extension = ".png";
   if (!a.texture.empty()) {
     read_image_rgba8(a.texture);  // throws when it is no picture
     picture = read_file(a.texture);
+    extension = extension_of(check_image_header(picture, a.texture));
+    register_beside(tool, extension);
   }
   std::string hash;
   const TexturedPatch patch = make_textured_patch(read_mesh(a.mesh, &hash), a.patch, a.mesh);
-  write_files(tool, a, hash, picture, patch);
+  write_files(tool, a, hash, picture, extension, patch);
   tool.report(format_report(patch));
   if (patch.strength != patch.strength_asked)
     tool.say("strength lowered from " + format_fixed(patch.strength_asked, 3, "") + " to " +
@@ -83,5 +83,7 @@ int main(int argc, char** argv) {
       "  uvpatch bunny.ply --around 1203 --faces 7688 --distort swirl -o swirl.obj --json -");
   viewcell::UvpatchArguments arguments;
   viewcell::declare_arguments(tool, arguments);
-  return tool.main(argc, argv, [&] { return viewcell::run(tool, arguments); });
+  return tool.main(
+      argc, argv, [&] { viewcell::finish_arguments(tool, arguments); },
+      [&] { return viewcell::run(tool, arguments); });
 }
