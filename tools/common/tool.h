@@ -1,5 +1,5 @@
 // What every tool's main shares: the common options, progress on a terminal, one-line errors and
-// exit codes (STYLE: 0 ok, 1 input, 2 usage, 3 machine, 4 bug, 5 over the threshold asked for).
+// exit codes (0 ok, 1 input, 2 usage, 3 machine, 4 bug, 5 over the threshold asked for).
 #pragma once
 
 #include <functional>
