@@ -1,5 +1,4 @@
-// Follows: Loop's scheme with Warren's weights; on creases the cubic B-spline of H. Hoppe et al.,
-// Piecewise smooth surface reconstruction, SIGGRAPH 94.
+// Follows: [Loop 1987] with Warren's weights; on creases the cubic B-spline of [Hoppe et al. 1994].
 // Differs: there, a vertex with one crease (a dart) is smooth; here it stays, for a single crease
 // comes only from edges of more than two triangles.
 // Not by OpenMesh's LoopT: it cannot hold such edges, has Loop's weights in a table that ends at 49

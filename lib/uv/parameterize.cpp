@@ -1,4 +1,4 @@
-// Follows: Floater 2003: w_ij = (tan(a / 2) + tan(b / 2)) / |v_j - v_i|,
+// Follows: [Floater03]: w_ij = (tan(a / 2) + tan(b / 2)) / |v_j - v_i|,
 // a and b the angles at v_i on both sides of the edge. Any positive weights keep the map one to
 // one, so those of degenerate triangles are clamped.
 #include "uv/parameterize.h"

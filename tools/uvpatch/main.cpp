@@ -77,7 +77,7 @@ int main(int argc, char** argv) {
   viewcell::Tool tool(
       "uvpatch",
       "Cuts a disk of so many triangles from a mesh and gives it texture coordinates by mean value "
-      "coordinates [Floater 2003], a checker board, and distortions on purpose: test models for "
+      "coordinates [Floater03], a checker board, and distortions on purpose: test models for "
       "texture adaptation and for metrics of mapping.",
       "uvpatch bunny.ply --up y --faces 17483 -o head.obj\n"
       "  uvpatch bunny.ply --around 1203 --faces 7688 --distort swirl -o swirl.obj --json -");
