@@ -14,9 +14,13 @@ metrics=(
   "lt=--metric lt"
 )
 
-# A number of a report: value REPORT KEY, the first of that name; part REPORT OBJECT KEY.
-value() { tr -d '\n ' <"$1" | grep -o "\"$2\":[-+0-9.e]*" | head -1 | cut -d: -f2; }
-part() { tr -d '\n ' <"$1" | grep -o "\"$2\":{[^}]*" | grep -o "\"$3\":[-+0-9.e]*" | head -1 | cut -d: -f2; }
+# value REPORT PATH: a number of a report, by jq's path.
+value() {
+  local numbers
+  numbers=$(jq -r "$2 | numbers" "$1") && [ -n "$numbers" ] ||
+    { echo "$(basename "$0"): $1 has no number $2" >&2; return 1; }
+  echo "$numbers"
+}
 
 # build_pm MESH OPTIONS PM REPORT: pmesh build; a mesh that cannot go as far as asked is whole, too.
 # Returns 1 for a metric that needs texture coordinates which the mesh has not; exits 1 for any

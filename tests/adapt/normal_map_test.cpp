@@ -3,10 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <set>
 
 #include "adapt/bump.h"
 #include "adapt/texture_adapt.h"
 #include "base/random.h"
+#include "common/same_every_time.h"
 #include "mesh/tangents.h"
 #include "pm/build.h"
 #include "uv/triangle_grid.h"
@@ -223,10 +225,11 @@ TEST(NormalMapBake, GreenMayPointDown) {
 TEST(NormalMapBake, TheSameBytesForAnyNumberOfThreads) {
   const NormalLevels levels(make_bump(kRelief), 100, 96);
   const ImageRgba8 relief = make_relief_map(64, 5);
-  const BakedNormalMap one = levels.bake(&relief, {.n_threads = 1});
-  const BakedNormalMap three = levels.bake(&relief, {.n_threads = 3});
-  EXPECT_EQ(one.image.pixels, three.image.pixels);
-  EXPECT_EQ(one.n_clamped, three.n_clamped);
+  const auto baked = same_for_any_threads([&](int n_threads) {
+    const BakedNormalMap map = levels.bake(&relief, {.n_threads = n_threads});
+    return std::pair(map.image.pixels, map.n_clamped);
+  });
+  EXPECT_GT(std::set<Rgba8>(baked.first.begin(), baked.first.end()).size(), 100u);
 }
 
 // A square whose normals lean away: those of the finest mesh lie below its surface.

@@ -47,19 +47,25 @@ TEST(WriteFile, FailureLeavesTheTargetAndNoTemporary) {
 }
 
 // The limit kills in the middle of writing.
-TEST(WriteFile, AKillLeavesNoTemporary) {
+void write_until_killed(const fs::path& target) {
+  const rlimit limit{4096, 4096};
+  ::setrlimit(RLIMIT_FSIZE, &limit);
+  write_file(target, std::string(100000, 'x'));
+}
+
+TEST(WriteFile, AKillLeavesTheTarget) {
+  const TemporaryFolder folder;
+  const fs::path target = folder.add("a", "old");
+  EXPECT_EXIT(write_until_killed(target), testing::KilledBySignal(SIGXFSZ), "");
+  EXPECT_EQ(read_file(target), "old");
+}
+
+TEST(OutsideWriteFile, AKillLeavesNoTemporaryWhereFilesNeedNoName) {
   const TemporaryFolder folder;
   const int fd = ::open(folder.path().c_str(), O_TMPFILE | O_WRONLY, 0600);
   if (fd < 0) GTEST_SKIP() << "no files without a name here";
   ::close(fd);
-  const fs::path target = folder.add("a", "old");
-  const auto write_much = [&] {
-    const rlimit limit{4096, 4096};
-    ::setrlimit(RLIMIT_FSIZE, &limit);
-    write_file(target, std::string(100000, 'x'));
-  };
-  EXPECT_EXIT(write_much(), testing::KilledBySignal(SIGXFSZ), "");
-  EXPECT_EQ(read_file(target), "old");
+  EXPECT_EXIT(write_until_killed(folder.add("a", "old")), testing::KilledBySignal(SIGXFSZ), "");
   EXPECT_EQ(count_entries(folder.path()), 1u);
 }
 

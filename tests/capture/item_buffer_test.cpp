@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "capture/shapes.h"
+#include "common/models.h"
 #include "gl/context.h"
 #include "gl/framebuffer.h"
 #include "gl/objects.h"
@@ -149,13 +150,22 @@ TEST(ItemBuffer, ShowsNoCulledTriangleOfASphere) {
   EXPECT_GT(sum.n_seen, 10000u);
 }
 
-TEST(ItemBuffer, ShowsNoCulledTriangleOfTheBunny) {
-  const std::optional<TriMesh> bunny = read_bunny(43.6);
-  if (!bunny) GTEST_SKIP() << "the bunny is not here";
-  const CullingSum sum = compare_items(*bunny, 60, 3, 75, 300);
-  report_items("bunny", sum);
+void expect_no_culled_triangle(const char* name, const TriMesh& mesh) {
+  const CullingSum sum = compare_items(of_width(mesh, 43.6), 60, 3, 75, 300);
+  report_items(name, sum);
   EXPECT_EQ(sum.n_culled_and_seen, 0u);
   EXPECT_GT(sum.culled_share, 0.40);
+  EXPECT_GT(sum.n_seen, 10000u);
+}
+
+TEST(ItemBuffer, ShowsNoCulledTriangleOfAFigure) {
+  expect_no_culled_triangle("figure", make_lumpy_figure(132));
+}
+
+TEST(OutsideItemBuffer, ShowsNoCulledTriangleOfTheBunny) {
+  const std::optional<TriMesh> bunny = read_bunny();
+  if (!bunny) GTEST_SKIP() << "the bunny is not here";
+  expect_no_culled_triangle("bunny", *bunny);
 }
 
 // A sphere of radius 20 at 100 units; [Chen03] reports 43.7 % for its objects at this cell size.

@@ -7,6 +7,7 @@
 
 #include "capture/ray_capture.h"
 #include "capture/shapes.h"
+#include "common/models.h"
 #include "gl/context.h"
 
 namespace viewcell {
@@ -141,16 +142,25 @@ TEST(RasterCapture, AgreesWithRaysOnOpenSurfaces) {
 }
 
 // Dense: many triangles are smaller than a pixel, so the engines may meet neighbouring ones.
-TEST(RasterCapture, AgreesWithRaysOnTheBunny) {
-  std::optional<TriMesh> bunny = read_bunny(40);
-  if (!bunny) GTEST_SKIP() << "the bunny is not here";
-  bunny->normals = make_vertex_normals(*bunny);
-  const Agreement a = compare_engines(make_scene_of(*bunny), 3, 80, 5);
-  report("bunny", a);
+void expect_agreement_on_dense(const char* name, const TriMesh& dense) {
+  TriMesh mesh = of_width(dense, 40);
+  mesh.normals = make_vertex_normals(mesh);
+  const Agreement a = compare_engines(make_scene_of(mesh), 3, 80, 5);
+  report(name, a);
   EXPECT_GT(a.n_seen, 20000u);
   EXPECT_LE(a.n_mask, a.n_seen / 2000);
   EXPECT_LE(a.n_layer, a.n_seen / 2000);
   EXPECT_LE(a.n_color, a.n_seen / 2000);
+}
+
+TEST(RasterCapture, AgreesWithRaysOnADenseFigure) {
+  expect_agreement_on_dense("figure", make_lumpy_figure(132));
+}
+
+TEST(OutsideRasterCapture, AgreesWithRaysOnTheBunny) {
+  const std::optional<TriMesh> bunny = read_bunny();
+  if (!bunny) GTEST_SKIP() << "the bunny is not here";
+  expect_agreement_on_dense("bunny", *bunny);
 }
 
 // project() and the clip matrix place a point on the same pixel.

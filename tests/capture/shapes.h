@@ -104,16 +104,19 @@ inline TriMesh make_box(const glm::dvec3& lo, const glm::dvec3& hi) {
   return mesh;
 }
 
-/// The bunny of the shared models, about its centre and of that width; nothing where it is not
-/// here.
-inline std::optional<TriMesh> read_bunny(double width) {
-  const auto file = std::filesystem::path(VIEWCELL_SHARED_DATA) / "bunny-69k/bunny70k.ply";
-  if (!std::filesystem::exists(file)) return std::nullopt;
-  TriMesh mesh = read_mesh(file);
+/// The mesh about its centre and of that width.
+inline TriMesh of_width(TriMesh mesh, double width) {
   const Box box = bounding_box(mesh);
   for (glm::vec3& p : mesh.positions)
     p = glm::vec3((glm::dvec3(p) - box.centre()) * (width / box.size().x));
   return mesh;
+}
+
+/// The bunny of the shared models; nothing where it is not here.
+inline std::optional<TriMesh> read_bunny() {
+  const auto file = std::filesystem::path(VIEWCELL_SHARED_DATA) / "bunny-69k/bunny70k.ply";
+  if (!std::filesystem::exists(file)) return std::nullopt;
+  return read_mesh(file);
 }
 
 /// The mesh as the one object of a scene, as it is; material 0, of no special colour.

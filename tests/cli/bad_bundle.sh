@@ -11,7 +11,7 @@ cell=1  # of the path
 play() { echo "$bin/play" "$1" --path "${2:-park/path.json}" --no-quality; }
 small="--frames 2 --size 64x64 -q"
 expect 0 $(play whole) $small --stats x.json
-grep -q '"hybrid_over_frustum"' x.json || fail "play on the whole bundle"
+has_keys x.json hybrid_over_frustum
 rm x.json
 
 # --- the folder ---
@@ -61,7 +61,7 @@ expect 0 "$bin/cellpack" park/scene.json cells.json captures sv mv --cells 8-11 
 fault 1 "cell $cell" $(play few) $small
 path_fault() {  # SED TEXT
   sed "$1" park/path.json >p/path.json
-  cmp -s park/path.json p/path.json && fail "no change by $1"
+  differ park/path.json p/path.json || fail "no change by $1"
   fault 1 "$2" $(play whole p/path.json) $small
 }
 path_fault 's/\[100, 60, 8\]/[5000, 60, 8]/' 'leaves the grid'

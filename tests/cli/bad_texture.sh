@@ -81,10 +81,8 @@ small() { # TEXT COMMAND...
 small x.exr "${level[@]}" -o x.exr
 small x.adapt "${level[@]}" -o x.png --log x.adapt
 small x.pm "$bin/pmesh" build patch.obj -q -o x.pm
-if [ -e /dev/full ]; then
-  fault 3 "No space left" "${level[@]}" -o /dev/full
-  fault 3 "No space left" "${level[@]}" -o x.png --log /dev/full
-fi
+fault 3 "No space left" "${level[@]}" -o /dev/full
+fault 3 "No space left" "${level[@]}" -o x.png --log /dev/full
 
 # --- a flat fan of a soup: its apex, more wedges than a byte counts, would go first ---
 awk 'BEGIN {

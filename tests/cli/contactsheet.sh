@@ -5,7 +5,7 @@ set -euo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
 start "$1"
 sheet=$bin/contactsheet
-size() { tr -d ' \n' <"$1" | sed 's/.*"width_px":\([0-9]*\),"height_px":\([0-9]*\).*/\1 \2/'; }
+size() { jq -r '"\(.width_px) \(.height_px)"' "$1"; }
 
 # Two gray pictures of 20 x 15 and one of 15 x 20; a ball's, with empty borders.
 base64 -d >a.png <<<iVBORw0KGgoAAAANSUhEUgAAABQAAAAPCAAAAADB87CJAAAAEUlEQVR42mNIwQIYRgWJEAQAHnt1MQgniOIAAAAASUVORK5CYII=
@@ -23,12 +23,12 @@ expect 0 "$sheet" a.png b.png a.png --columns 2 -o s.png --json two.json
 read -r w1 h1 <<<"$(size one.json)"
 read -r w2 h2 <<<"$(size two.json)"
 [ "$w1" -eq "$w2" ] && [ "$h2" -gt $((h1 + 15)) ] || fail "sheets of $w1 x $h1 and $w2 x $h2"
-grep -q '"rows": 2' two.json || fail "rows"
+says two.json '.rows == 2' || fail "rows"
 # An empty word leaves a blank; notes and titles show; the same bytes every time.
 expect 0 "$sheet" a.png "" a.png --columns 2 -o blank.png
-cmp -s s.png blank.png && fail "no blank"
+differ s.png blank.png || fail "no blank"
 expect 0 "$sheet" a.png b.png a.png --columns 2 --note one --note two --title three -o words.png
-cmp -s s.png words.png && fail "no words"
+differ s.png words.png || fail "no words"
 for j in 1 2; do
   expect 0 "$sheet" a.png b.png a.png --columns 2 --note one --note two --title three -o again.png -j $j
   cmp -s words.png again.png || fail "-j $j gives other bytes"

@@ -14,6 +14,9 @@ start() {
 
 fail() { echo "$(basename "$0"): $*" >&2; exit 1; }
 
+# skip TEXT: ends the script; CTest says that it was skipped.
+skip() { echo "$(basename "$0"): skipped: $*"; exit 77; }
+
 # expect CODE COMMAND...: the exit code. stdout and stderr go to $log/out and $log/err.
 expect() {
   local code=$1 got=0
@@ -32,7 +35,7 @@ snapshot() { find . -type f -printf '%p %s %T@\n'; }
 # begins with the tool's name and has the text, and no file made, changed or left over.
 n_faults=0
 fault() {
-  local code=$1 text=$2
+  local code=$1 text=${2:?what the error says}
   shift 2
   snapshot >"$log/before"
   expect "$code" "$@"
@@ -51,9 +54,50 @@ fault() {
   n_faults=$((n_faults + 1))
 }
 
-# key NAME: the value in the report that the last expect got on stdout. is NAME VALUE: it is that.
-key() { sed -n "s/.*\"$1\": \([^,]*\),*$/\1/p" "$log/out"; }
-is() { [ "$(key "$1")" = "$2" ] || fail "$1 is $(key "$1"), not $2"; }
+# says FILE FILTER: whether jq's FILTER of a report is true. has_keys FILE KEY...: the report has each,
+# however deep.
+says() { [ "$(jq "$2" "$1")" = true ]; }
+has_keys() {
+  local key
+  for key in "${@:2}"; do
+    says "$1" "[.. | objects | has(\"$key\")] | any" || fail "no $key in the report: $(cat "$1")"
+  done
+}
+# key NAME: the number in the report that the last expect got on stdout. is NAME VALUE: it is that.
+key() { jq ".$1 | numbers" "$log/out"; }
+is() { says "$log/out" ".$1 == $2" || fail "$1 is $(key "$1"), not $2"; }
+
+# holds "EXPRESSION": of numbers, signs and blanks between them, as awk has them. What is no number, as
+# the output of a command that failed, fails.
+holds() {
+  local number='[-+]?[0-9]+(\.[0-9]*)?(e[-+]?[0-9]+)?'
+  [[ $1 =~ ^$number(\ ([-+*/<>]|<=|>=|==|&&)\ $number)*$ ]] || fail "'$1' is not of numbers"
+  awk "BEGIN { exit !($1) }"
+}
+
+# differ A B: two files, or two folders, that are there and are not alike.
+differ() {
+  local code=0
+  diff -rq "$1" "$2" >"$log/diff" || code=$?
+  [ $code -eq 1 ]
+}
+
+# count_files GLOB
+count_files() { { compgen -G "$1" || true; } | wc -l; }
+
+# struck N GLOB COMMAND...: starts the command and kills it as soon as N files match; whether the kill
+# met it at work, with more still to be written than that.
+struck() {
+  local n=$1 glob=$2 got=0 pid
+  shift 2
+  "$@" >"$log/out" 2>"$log/err" </dev/null &
+  pid=$!
+  while [ -e /proc/$pid/exe ] && [ "$(count_files "$glob")" -lt "$n" ]; do sleep 0.002; done
+  kill -9 $pid 2>"$log/kill" || true  # it may have ended: what wait says tells
+  wait $pid 2>"$log/kill" || got=$?
+  [ $got -eq 137 ] || [ $got -eq 0 ] || fail "'${1##*/}' exits with $got: $(cat "$log/err")"
+  [ $got -eq 137 ]
+}
 
 # ball N RADIUS: a closed sphere of N x 2N patches as OFF, to stdout.
 ball() {

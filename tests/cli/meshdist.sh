@@ -29,15 +29,14 @@ grep -Eq '^symmetric +1 +1 +1 ' "$log/out" || fail "shifted squares are not 1 ap
 grep -q "million samples in" "$log/err" || fail "no summary on stderr"
 expect 0 "$meshdist" a.off a.off --samples 1000 -q
 [ ! -s "$log/err" ] || fail "words on stderr with -q"
-grep -Eq '^symmetric +[0-9.]+(e-1[5-9])? ' "$log/out" || fail "d(A, A): $(cat "$log/out")"
+awk '$1 == "symmetric" { n++; worst = $2 } END { exit !(n == 1 && worst ~ /^[0-9]/ && worst + 0 < 1e-14) }' "$log/out" ||
+  fail "d(A, A): $(cat "$log/out")"
 
 # JSON, alone on stdout when asked for there.
 expect 0 "$meshdist" a.off b.off --samples 5000 --json -
 head -c 1 "$log/out" | grep -q "{" || fail "stdout is not only JSON"
-for key in forward backward symmetric max mean rms p50 p95 p99 samples bbox_diagonal worst; do
-  grep -q "\"$key\": " "$log/out" || fail "no $key in the report"
-done
-grep -q '"samples": 5000' "$log/out" || fail "samples"
+has_keys "$log/out" forward backward symmetric max mean rms p50 p95 p99 samples bbox_diagonal worst
+is samples 5000
 ! grep -q histogram "$log/out" || fail "a histogram that nobody asked for"
 cp "$log/out" first
 for j in 1 2 7; do
@@ -45,15 +44,15 @@ for j in 1 2 7; do
   cmp -s "$log/out" first || fail "-j $j gives another report"
 done
 expect 0 "$meshdist" a.off b.off --samples 5000 --json - --seed 1
-! cmp -s "$log/out" first || fail "--seed changes nothing"
+differ "$log/out" first || fail "--seed changes nothing"
 expect 0 "$meshdist" a.off b.off --samples 5000 --json report.json -o table.txt
 [ ! -s "$log/out" ] && cmp -s report.json first && [ -s table.txt ] || fail "-o and --json"
 expect 0 "$meshdist" low.off high.off --samples 1000 --histogram 4 --json report.json
-grep -q '"histogram": \[0,0,0,1000\]' report.json || fail "histogram: $(cat report.json)"
+says report.json '[.forward, .backward | .histogram] == [[0, 0, 0, 1000], [0, 0, 0, 1000]]' || fail "histogram: $(cat report.json)"
 grep -Eq '^1 +100.0000 +100.0000$' "$log/out" || fail "no lines of the histogram"
 expect 0 "$meshdist" low.off high.off --samples 1000 --histogram 4 --histogram-to 2 --json report.json
-grep -q '"histogram": \[0,0,1000,0\]' report.json || fail "--histogram-to: $(cat report.json)"
-grep -q '"histogram_to": 2.0' report.json || fail "histogram_to: $(cat report.json)"
+says report.json '[.forward, .backward | .histogram] == [[0, 0, 1000, 0], [0, 0, 1000, 0]]' || fail "--histogram-to: $(cat report.json)"
+says report.json '.histogram_to == 2' || fail "histogram_to: $(cat report.json)"
 grep -Eq '^1.5 +100.0000 +100.0000$' "$log/out" || fail "lines of another range"
 
 # Units: those of A, or of the unit cube; any size.
@@ -160,10 +159,8 @@ rm a.ply b.ply
 
 # The machine's fault, and nothing left behind.
 fault 3 "no/x.ply" "$meshdist" a.off b.off --samples 100 --color no/x.ply
-if [ -e /dev/full ]; then
-  got=0
-  "$meshdist" low.off high.off --samples 100 >/dev/full 2>"$log/err" || got=$?
-  [ $got -eq 3 ] && grep -q "No space left" "$log/err" || fail "a full disk: $got"
-fi
+got=0
+"$meshdist" low.off high.off --samples 100 >/dev/full 2>"$log/err" || got=$?
+[ $got -eq 3 ] && grep -q "No space left" "$log/err" || fail "a full disk: $got"
 [ -z "$(find . -name '.tmp-*')" ] || fail "temporaries are left"
 echo "meshdist.sh: all well ($n_faults faults)"

@@ -26,7 +26,7 @@ expect 0 "$plot" curves.csv --x faces --y max,mean --by metric --log-x --log-y -
 [ "$(count a.svg '>A &amp; B</text>')" -eq 1 ] && [ "$(count a.svg '>distance<')" -eq 1 ] || fail "words"
 [ "$(count a.svg '>faces<')" -eq 2 ] && [ "$(count a.svg '>mean<')" -eq 1 ] || fail "two panels"
 [ "$(count a.svg '>1k<')" -eq 2 ] || fail "no tick at 1000"
-grep -q '"rows": 5' report.json && grep -q '"points": 4' report.json || fail "$(cat report.json)"
+says report.json '.rows == 5 and [.panels[].points] == [4, 5]' || fail "$(cat report.json)"
 # An empty field breaks its line: two parts in the first panel, one in the second.
 [ "$(grep '#d55e00.* marker-start' a.svg | head -1 | grep -o '[" ]M' | wc -l)" -eq 2 ] || fail "no break"
 [ "$(grep '#d55e00.* marker-start' a.svg | tail -1 | grep -o '[" ]M' | wc -l)" -eq 1 ] || fail "a break"
@@ -43,7 +43,7 @@ previous=a.svg
 for option in "--y-least 1" "--y-most 5" "--x-label n" "--y-label d"; do
   # shellcheck disable=SC2086
   expect 0 "$plot" curves.csv "${options[@]:0:8}" $option -o c.svg
-  cmp -s c.svg "$previous" && fail "$option changes nothing"
+  differ c.svg "$previous" || fail "$option changes nothing"
   cp c.svg previous.svg
   previous=previous.svg
 done

@@ -30,7 +30,7 @@ OBJ
 expect 0 "$subdivide" --help
 grep -q "Example:" "$log/out" || fail "--help has no example"
 expect 0 "$subdivide" square.obj --times 2 -o a.obj --json -
-is faces_in 2; is faces 32; is vertices 25; is welded 2; is dropped 0; is after 0; is compared 32; is elsewhere 0
+is faces_in 2; is faces 32; is vertices 25; is welded 2; is dropped 0; is flipped.after 0; is drift.compared 32; is drift.elsewhere 0
 grep -q "32 triangles, 25 vertices" "$log/err" || fail "no summary"
 [ "$(grep -c '^f ' a.obj)" -eq 32 ] && [ "$(grep -c '^v ' a.obj)" -eq 25 ] || fail "counts of the OBJ"
 [ "$(grep -c '^vt ' a.obj)" -eq 30 ] || fail "charts are joined: $(grep -c '^vt ' a.obj)"

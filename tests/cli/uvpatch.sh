@@ -45,7 +45,8 @@ is faces 150; is around 7
 for distort in none swirl stretch uniform; do
   expect 0 "$uvpatch" ball.off --faces 200 --distort $distort -o $distort.obj --json - -q
   is flipped 0; is euler 1
-  [ $distort = none ] || ! cmp -s <(grep '^vt' none.obj) <(grep '^vt' $distort.obj) || fail $distort
+  grep '^vt' $distort.obj >$distort.vt
+  [ $distort = none ] || differ none.vt $distort.vt || fail $distort
   cmp <(grep '^v ' none.obj) <(grep '^v ' $distort.obj) || fail "$distort moves vertices"
 done
 expect 0 "$uvpatch" ball.off --faces 200 --distort swirl --strength 0.125 -o b.obj --json - -q
@@ -53,7 +54,8 @@ is strength 0.125
 expect 0 "$uvpatch" ball.off --faces 200 --distort swirl --strength 10 -o b.obj --json -
 grep -q "strength lowered from 10.000 to" "$log/err" || fail "says nothing of a lowered strength"
 expect 0 "$uvpatch" ball.off --faces 200 --relax 0 --boundary square -o b.obj --json - -q
-cmp -s <(grep '^vt' none.obj) <(grep '^vt' b.obj) && fail "--boundary does nothing"
+grep '^vt' b.obj >b.vt
+differ none.vt b.vt || fail "--boundary does nothing"
 expect 0 "$uvpatch" ball.off --faces 9 --up -z -o b.obj --json - -q
 is around 265
 expect 0 "$uvpatch" ball.off --faces 9 --texture-size 64 --squares 4 -o small.obj -q

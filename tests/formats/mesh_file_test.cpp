@@ -2,7 +2,6 @@
 #include "formats/mesh_file.h"
 
 #include <gtest/gtest.h>
-#include <zlib.h>
 
 #include <algorithm>
 
@@ -11,25 +10,12 @@
 #include "common/expect_input_error.h"
 #include "common/mutate.h"
 #include "common/temporary_folder.h"
+#include "formats/mesh_bytes.h"
 #include "formats/readers.h"
 #include "mesh/cube.h"
 
 namespace viewcell {
 namespace {
-
-std::string gzipped(const std::string& bytes) {
-  z_stream stream{};
-  deflateInit2(&stream, 9, Z_DEFLATED, 16 + MAX_WBITS, 9, Z_DEFAULT_STRATEGY);
-  std::string out(deflateBound(&stream, bytes.size()), '\0');
-  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data()));
-  stream.avail_in = static_cast<uInt>(bytes.size());
-  stream.next_out = reinterpret_cast<Bytef*>(out.data());
-  stream.avail_out = static_cast<uInt>(out.size());
-  deflate(&stream, Z_FINISH);
-  out.resize(stream.total_out);
-  deflateEnd(&stream);
-  return out;
-}
 
 // The triangles as positions, each rotated to begin with its least corner, sorted.
 std::vector<std::array<std::array<float, 3>, 3>> shape_of(const TriMesh& mesh) {

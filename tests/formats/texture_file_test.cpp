@@ -7,10 +7,13 @@
 #include "base/json.h"
 #include "base/random.h"
 #include "common/expect_input_error.h"
+#include "common/models.h"
 #include "common/mutate.h"
 #include "common/temporary_folder.h"
+#include "formats/mesh_file.h"
 #include "formats/write_glb.h"
 #include "image/io.h"
+#include "image/random_image.h"
 #include "mesh/cube.h"
 
 namespace viewcell {
@@ -181,7 +184,21 @@ TEST(TextureFile, DamagedFilesNeverCrash) {
   });
 }
 
-TEST(TextureFile, EgyptianCat) {
+// A figure of several charts in large pictures that do not compress to nothing, and whose bytes
+// therefore lie all over the file.
+TEST(TextureFile, LargePicturesOfAFigure) {
+  const TemporaryFolder folder;
+  Random random(12);
+  const ImageRgba8 color = random_image(1024, 512, random), normal = random_image(512, 1024, random);
+  const std::string file = (folder.path() / "figure.glb").string();
+  write_glb(file, make_gored_figure(30, 6),
+            {.base_color = encode_png(color), .normal_map = encode_png(normal), .generator = ""});
+  EXPECT_EQ(read_texture(file).pixels, color.pixels);
+  EXPECT_EQ(read_texture(file + "#normal").pixels, normal.pixels);
+  EXPECT_EQ(read_mesh(file).triangles.size(), 4u * 30 * 29);
+}
+
+TEST(OutsideTextureFile, EgyptianCat) {
   const std::string file = VIEWCELL_SHARED_DATA "/egyptian-cat-5k/cat.glb";
   if (!std::filesystem::exists(file)) GTEST_SKIP() << "no " << file;
   const ImageRgba8 color = read_texture(file), normal = read_texture(file + "#normal");

@@ -262,7 +262,7 @@ TEST(CheckGl, TellsThePlaceAndClearsTheError) {
   EXPECT_NO_THROW(check_gl(gl(), "a test"));
 }
 
-TEST(GlContext, BothEnginesDrawTheSame) {
+TEST(OutsideGlContext, BothEnginesDrawTheSame) {
   std::vector<ImageRgba8> images;
   std::vector<std::string> renderers;
   for (const GlEngine engine : {GlEngine::kOsmesa, GlEngine::kEgl}) {

@@ -12,6 +12,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/random.h"
+#include "common/same_every_time.h"
 #include "common/temporary_folder.h"
 #include "image/half.h"
 
@@ -118,12 +119,14 @@ TEST(CaptureFileTest, RoundTripIsExactWithWindowsBeyondTheSourceImage) {
   }
 }
 
-TEST(CaptureFileTest, SameBytesTwiceAndNoDateOrSoftware) {
+TEST(CaptureFileTest, SameBytesEveryTimeAndNoDateOrSoftware) {
   const TemporaryFolder folder;
-  write_capture_file(folder / "a.exr", random_parts(3), kAttributes);
-  write_capture_file(folder / "b.exr", random_parts(3), kAttributes);
-  const std::string bytes = read_file(folder / "a.exr");
-  EXPECT_EQ(bytes, read_file(folder / "b.exr"));
+  const std::string bytes = same_every_time([&](std::size_t i) {
+    const auto file = folder / (std::to_string(i) + ".exr");
+    write_capture_file(file, random_parts(3), kAttributes);
+    return read_file(file);
+  });
+  EXPECT_GT(bytes.size(), 1000u);
   for (const char* name : {"capDate", "DateTime", "oftware", "ownerName", "OpenImageIO"})
     EXPECT_EQ(bytes.find(name), std::string::npos) << name;
 }

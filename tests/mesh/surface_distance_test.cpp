@@ -10,6 +10,7 @@
 #include <numeric>
 
 #include "base/random.h"
+#include "common/models.h"
 #include "formats/mesh_file.h"
 #include "mesh/closest_point.h"
 #include "mesh/cube.h"
@@ -357,7 +358,7 @@ TEST(SurfaceDistance, SameForAnyNumberOfThreadsAndForASeed) {
   DistanceOptions options = samples(30'000);
   options.n_threads = 1;
   const SurfaceDistance one = measure_surface_distance(a, b, options);
-  for (const int n_threads : {2, 5}) {
+  for (const int n_threads : {1, 2, 5, 7}) {
     options.n_threads = n_threads;
     const SurfaceDistance more = measure_surface_distance(a, b, options);
     EXPECT_EQ(more.forward.mean, one.forward.mean);
@@ -372,24 +373,32 @@ TEST(SurfaceDistance, SameForAnyNumberOfThreadsAndForASeed) {
   EXPECT_NEAR(other.forward.mean, one.forward.mean, 0.005 * one.forward.mean);
 }
 
-// The bunny against itself with its vertices on a lattice of a fiftieth of its size, where many
+// A mesh against itself with its vertices on a lattice of a fiftieth of its size, where many
 // triangles have become segments and points.
-TEST(SurfaceDistance, MeansOfTheBunnyDoNotDependOnTheNumberOfSamples) {
-  const std::filesystem::path file =
-      std::filesystem::path(VIEWCELL_SHARED_DATA) / "bunny-69k/bunny70k.ply";
-  if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is not here";
-  const TriMesh bunny = read_mesh(file);
-  const double step = glm::length(bounding_box(bunny).size()) / 50;
+void expect_steady_means(const TriMesh& mesh) {
+  const double step = glm::length(bounding_box(mesh).size()) / 50;
   const TriMesh coarse =
-      moved(bunny, [step](const glm::dvec3& p) { return step * glm::round(p / step); });
-  const SurfaceDistance few = measure(bunny, coarse, 50'000),
-                        many = measure(bunny, coarse, 300'000);
+      moved(mesh, [step](const glm::dvec3& p) { return step * glm::round(p / step); });
+  const SurfaceDistance few = measure(mesh, coarse, 50'000), many = measure(mesh, coarse, 300'000);
+  EXPECT_GT(many.forward.mean, 0.05 * step);
+  EXPECT_LT(many.forward.max, step);  // vertices move by less than 0.87 steps
   for (const auto& [x, y] :
        {std::pair(&few.forward, &many.forward), std::pair(&few.backward, &many.backward)}) {
     EXPECT_NEAR(x->max, y->max, 0.1 * y->max);
     EXPECT_NEAR(x->mean, y->mean, 0.01 * y->mean);
     EXPECT_NEAR(x->rms, y->rms, 0.01 * y->rms);
   }
+}
+
+TEST(SurfaceDistance, MeansDoNotDependOnTheNumberOfSamples) {
+  expect_steady_means(make_lumpy_figure(132));
+}
+
+TEST(OutsideSurfaceDistance, MeansOfTheBunnyDoNotDependOnTheNumberOfSamples) {
+  const std::filesystem::path file =
+      std::filesystem::path(VIEWCELL_SHARED_DATA) / "bunny-69k/bunny70k.ply";
+  if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is not here";
+  expect_steady_means(read_mesh(file));
 }
 
 }  // namespace

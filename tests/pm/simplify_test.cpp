@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
+#include <tuple>
 
+#include "common/same_every_time.h"
 #include "mesh/used_vertices.h"
 #include "pm/shapes.h"
 
@@ -65,10 +67,11 @@ TEST(Simplify, MaxErrorIsNotPassed) {
 
 TEST(Simplify, SameBytesEveryTime) {
   const TriMesh sphere = make_noisy_sphere(4, 0.1, 5);
-  const SimplifyResult a = simplify(sphere, {.target_triangles = 200});
-  const SimplifyResult b = simplify(sphere, {.target_triangles = 200});
-  EXPECT_EQ(a.mesh.triangles, b.mesh.triangles);
-  EXPECT_EQ(a.source_vertex, b.source_vertex);
+  const auto made = same_every_time([&sphere](std::size_t) {
+    const SimplifyResult result = simplify(sphere, {.target_triangles = 200});
+    return std::tuple(result.mesh.triangles, result.mesh.positions, result.source_vertex);
+  });
+  EXPECT_EQ(std::get<0>(made).size(), 200u);
 }
 
 TEST(Simplify, DegenerateAndNonManifoldInputIsTaken) {

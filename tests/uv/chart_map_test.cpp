@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "base/random.h"
+#include "common/models.h"
 #include "formats/mesh_file.h"
 #include "image/texel_spans.h"
 #include "mesh/surfaces.h"
@@ -388,8 +389,45 @@ TEST(ChartChecks, Obstacles) {
   EXPECT_EQ(obstacle(make_squares({good, {{-0.05f, 0.5f}, {0.3f, 0.3f}}})), "");
 }
 
+void expect_charts(const TriMesh& mesh, std::size_t n_charts, bool is_one_to_one) {
+  const ChartFindings f = check_charts(mesh, 1024, 1024);
+  EXPECT_EQ(f.n_charts, n_charts);
+  EXPECT_EQ(f.is_one_to_one(), is_one_to_one) << describe(f);
+}
+
+// A figure in six gores, and each thing that makes a picture unfit, with what is found: two gores
+// on one place, one gore folded, another tile, a picture that repeats. What lies a little outside
+// does not.
+TEST(ChartChecks, FiguresInGores) {
+  const auto changed = [](const auto& change) {
+    TriMesh mesh = make_gored_figure(30, 6);
+    for (glm::vec2& uv : mesh.texcoords) change(uv);
+    return mesh;
+  };
+  expect_charts(make_gored_figure(30, 1), 1, true);
+  expect_charts(changed([](glm::vec2&) {}), 6, true);
+  expect_charts(changed([](glm::vec2& uv) { uv.y += 0.07f; }), 6, true);
+  const auto found = [&changed](const auto& change) {
+    const TriMesh mesh = changed(change);
+    expect_charts(mesh, 6, false);
+    return check_charts(mesh, 1024, 1024);
+  };
+  constexpr std::size_t kPerGore = 2 * 29 * 10;  // triangles
+  const ChartFindings twice = found([](glm::vec2& uv) { uv.x -= uv.x > 5 / 6.0f ? 2 / 6.0f : 0; });
+  ASSERT_EQ(twice.overlaps.size(), 1u);
+  EXPECT_EQ(twice.overlaps[0].first, 3 * kPerGore);
+  EXPECT_EQ(twice.overlaps[0].second, 5 * kPerGore);
+  const ChartFindings folded = found([](glm::vec2& uv) { uv.x = std::max(uv.x, 1 / 6.0f - uv.x); });
+  ASSERT_EQ(folded.overlaps.size(), 1u);
+  EXPECT_EQ(folded.overlaps[0].first, 0u);
+  EXPECT_EQ(folded.overlaps[0].second, 0u);
+  EXPECT_EQ(folded.n_turned, kPerGore / 2);
+  EXPECT_EQ(found([](glm::vec2& uv) { uv += glm::vec2(3, -2); }).tile, glm::ivec2(3, -2));
+  EXPECT_EQ(found([](glm::vec2& uv) { uv.y *= 3; }).n_repeating, 6u);
+}
+
 // What is known of real models: their charts, and what looking at their charts' map shows.
-TEST(ChartChecks, RealModels) {
+TEST(OutsideChartChecks, RealModels) {
   struct Expected {
     const char* file;
     std::size_t n_charts;
@@ -409,9 +447,7 @@ TEST(ChartChecks, RealModels) {
   if (!std::filesystem::exists(folder)) GTEST_SKIP() << folder << " is not here";
   for (const Expected& expected : kModels) {
     SCOPED_TRACE(expected.file);
-    const ChartFindings f = check_charts(read_mesh(folder / expected.file), 1024, 1024);
-    EXPECT_EQ(f.n_charts, expected.n_charts);
-    EXPECT_EQ(f.is_one_to_one(), expected.is_one_to_one) << describe(f);
+    expect_charts(read_mesh(folder / expected.file), expected.n_charts, expected.is_one_to_one);
   }
 }
 

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "base/error.h"
+#include "common/models.h"
 #include "formats/mesh_file.h"
 #include "mesh/cube.h"
 #include "mesh/knot.h"
@@ -218,21 +219,29 @@ TEST(BoundaryLoop, OfWhatIsNoDisk) {
   EXPECT_THROW(find_boundary_loop(bow_tie), BugError);
 }
 
-// The real ones: holes, and edges of four triangles.
-TEST(CutPatch, RealModels) {
+void expect_disks_of_model(const TriMesh& mesh) {
+  const std::uint32_t around = find_top_vertex(mesh, {0, 1, 0}).value();
+  for (const std::size_t n : {500u, 2000u}) {
+    const Patch patch = cut_patch(mesh, around, n);
+    expect_disk_of(mesh, patch);
+    EXPECT_EQ(patch.mesh.triangles.size(), n);
+  }
+  expect_disk_of(mesh, cut_patch(mesh, around, kAllFaces));
+}
+
+// Holes, fins, and edges of four triangles.
+TEST(CutPatch, OfWhatScansAre) {
+  expect_disks_of_model(make_lumpy_figure(40));
+  expect_disks_of_model(make_rough_scan(53).mesh);
+}
+
+TEST(OutsideCutPatch, RealModels) {
   const std::filesystem::path folder = VIEWCELL_SHARED_DATA;
   if (!std::filesystem::exists(folder)) GTEST_SKIP() << folder << " is not here";
   for (const char* file : {"bunny-69k/bunny70k.ply", "dragon-11k/dragon_vrip_res4.ply.gz",
                            "elephant-holes-4k/elephant-with-holes.off", "cow-6k/cow.off"}) {
     SCOPED_TRACE(file);
-    const TriMesh mesh = read_mesh(folder / file);
-    const std::uint32_t around = find_top_vertex(mesh, {0, 1, 0}).value();
-    for (const std::size_t n : {500u, 2000u}) {
-      const Patch patch = cut_patch(mesh, around, n);
-      expect_disk_of(mesh, patch);
-      EXPECT_EQ(patch.mesh.triangles.size(), n);
-    }
-    expect_disk_of(mesh, cut_patch(mesh, around, kAllFaces));
+    expect_disks_of_model(read_mesh(folder / file));
   }
 }
 
