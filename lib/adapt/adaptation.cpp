@@ -163,7 +163,7 @@ void LogBuilder::merge(const VertexSplit& split) {
 void LogBuilder::collapse() {
   coarser_.coarsen();
   const VertexSplit split = coarser_.record().splits[coarser_.level()];
-  const Step step = add(map_.lay(split.child, split.parent));
+  const Step step = add(map_.build(split.child, split.parent));
   if (log_.steps_per_collapse == 2) return collapse_edge(split, step);
   end_step(step);
   merge(split);
@@ -182,14 +182,14 @@ void LogBuilder::collapse_edge(const VertexSplit& split, Step step) {
   }
   const auto end_with_move = [&] {
     merge(split);
-    end_step(add(map_.lay_move(v, glm::dvec3(place), moves_), true));
+    end_step(add(map_.build_move(v, glm::dvec3(place), moves_), true));
     move(v, place, moves_);
   };
   if (step == Step::done) {
     end_step(step);
     return end_with_move();
   }
-  if (add(map_.lay(v, u)) == Step::done) {
+  if (add(map_.build(v, u)) == Step::done) {
     end_step(Step::done);
     // From here on the parent stands where the child is.
     std::vector<WedgeMove> there;
@@ -199,9 +199,9 @@ void LogBuilder::collapse_edge(const VertexSplit& split, Step step) {
     move(v, finest_.wedges.positions[u], there);
     return end_with_move();
   }
-  end_step(add(map_.lay_move(v, glm::dvec3(place), moves_), true));
+  end_step(add(map_.build_move(v, glm::dvec3(place), moves_), true));
   move(v, place, moves_);
-  end_step(add(map_.lay(u, v)));
+  end_step(add(map_.build(u, v)));
   merge(split);
 }
 
@@ -217,7 +217,7 @@ void LogBuilder::end_step(Step step) {
 // The step as the map lies now; nothing of it unless it is done.
 LogBuilder::Step LogBuilder::add(bool is_laid, bool is_move) {
   is_move_ = is_move;
-  if (!is_laid || map_.is_torn() || map_.overlay().texture_points().size() > kMostPoints)
+  if (!is_laid || map_.has_seam_end() || map_.overlay().texture_points().size() > kMostPoints)
     return Step::unmapped;
   if (!add_points() || !add_cells()) {
     log_.points.resize(log_.first_point.back());

@@ -38,18 +38,19 @@ struct BuildOptions {
   /// always do (see texture_needs).
   bool refuse_folds = false;
   /// Refuse what makes a texture chart grow over another, on a texture of so many texels a side; 0:
-  /// do not look. For textures that are adapted (adapt/texture_adapt.h).
+  /// no check. For textures that are adapted (adapt/texture_adapt.h).
   int charts_apart_px = 0;
-  bool lazy = true;         ///< costs are looked at again when they come up, see CollapseLimits
-  float min_cosine = 0.2f;  ///< a normal may turn by up to acos of this
-  bool total_error = true;  ///< aps, mapping: distance to the input, not to the step before
+  bool lazy = true;                ///< changed costs are evaluated again when they come up, see
+                                   ///< CollapseLimits
+  float min_cosine = 0.2f;         ///< a normal may turn by up to acos of this
+  bool total_error = true;         ///< aps, mapping: distance to the input, not to the step before
   Measure measure = Measure::max;  ///< of mapping
   QemOptions qem;                  ///< of qem3 and qem5
   double texture_weight = 1;       ///< of qem5, see TextureQemOptions
   LindstromTurkOptions lt;         ///< of lt
 };
 
-/// What a build wants of texture coordinates.
+/// What a build needs of texture coordinates.
 struct TextureNeeds {
   bool coordinates = false;  ///< the metric, with this placement, refuses meshes without them
   bool no_folds = false;     ///< refuses what turns a triangle over in the texture, if there is one

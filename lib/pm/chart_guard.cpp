@@ -62,7 +62,7 @@ void ChartGuard::gather(const CollapseMesh& mesh, const WedgeTable& wedges,
   });
 }
 
-// Where no border bends, the star holds the same place as before.
+// Where no border of a chart bends, the star covers the same part of the texture as before.
 bool ChartGuard::keeps_areas(std::size_t n_pairs) const {
   constexpr double kRounding = 1e-6;
   std::vector<double> before(n_pairs + 1), change(n_pairs + 1);
@@ -74,13 +74,13 @@ bool ChartGuard::keeps_areas(std::size_t n_pairs) const {
   return true;
 }
 
-bool ChartGuard::is_taken(const Face& face) const {
-  bool taken = false;
+bool ChartGuard::comes_near_others(const Face& face) const {
+  bool found = false;
   for_each_texel(face, [&](int x, int y) {
-    if (!taken && stamps_.at(x, y) != stamp_)
-      taken = is_near_others(owners_, x, y, face.owner, kFetchReach);
+    if (!found && stamps_.at(x, y) != stamp_)
+      found = is_near_others(owners_, x, y, face.owner, kFetchReach);
   });
-  return taken;
+  return found;
 }
 
 bool ChartGuard::overlaps(const CollapseMesh& mesh, const WedgeTable& wedges,
@@ -97,10 +97,10 @@ bool ChartGuard::overlaps(const CollapseMesh& mesh, const WedgeTable& wedges,
   for (const Face& face : before_)
     for_each_texel(face, [&](int x, int y) { stamps_.at(x, y) = stamp_; });
   return std::any_of(after_.begin(), after_.end(),
-                     [&](const Face& face) { return is_taken(face); });
+                     [&](const Face& face) { return comes_near_others(face); });
 }
 
-void ChartGuard::take() {
+void ChartGuard::accept() {
   for (const Face& face : before_) release_texels(face.corners, face.owner, owners_);
   for (const Face& face : after_) claim_texels(face.corners, face.owner, owners_);
   before_.clear(), after_.clear();

@@ -11,9 +11,9 @@
 
 namespace viewcell {
 
-/// Which texels of a square texture the charts hold, as the mesh collapses. Where a border runs
-/// straight that was bent inwards, its chart takes texels that were free, or another's: then the
-/// texture has no place for both.
+/// Which texels of a square texture the charts hold, as the mesh collapses. Where a collapse
+/// straightens a border that was bent inwards, the chart grows over texels that were free, or
+/// another's: then the two charts would overlap.
 class ChartGuard {
  public:
   /// mesh must have texture coordinates. 8 bytes a texel. What lies outside [0, 1] holds none.
@@ -25,8 +25,8 @@ class ChartGuard {
   bool overlaps(const CollapseMesh& mesh, const WedgeTable& wedges,
                 std::span<const glm::vec2> texcoords, std::uint32_t u, std::uint32_t v,
                 std::span<const glm::vec2> merged, bool full);
-  /// The collapse that was asked about last is made.
-  void take();
+  /// The collapse of the last overlaps() is made.
+  void accept();
 
  private:
   struct Face {
@@ -38,15 +38,15 @@ class ChartGuard {
               std::span<const glm::vec2> texcoords, std::uint32_t moved, std::uint32_t other,
               bool is_parent, std::span<const glm::vec2> merged);
   bool keeps_areas(std::size_t n_pairs) const;
-  bool is_taken(const Face& face) const;
+  bool comes_near_others(const Face& face) const;
   template <typename Visit>
   void for_each_texel(const Face& face, Visit&& visit) const;
 
   std::vector<std::uint32_t> charts_;  // of faces
   Image<std::uint32_t> owners_;        // chart + 1, or 0
-  Image<std::uint32_t> stamps_;        // the last question whose star held the texel
+  Image<std::uint32_t> stamps_;        // the last overlaps() whose star held the texel
   std::uint32_t stamp_ = 0;
-  std::vector<Face> before_, after_;  // of the last question
+  std::vector<Face> before_, after_;  // of the last overlaps()
 };
 
 }  // namespace viewcell

@@ -18,7 +18,7 @@ struct CollapseLimits {
   float max_cost = std::numeric_limits<float>::infinity();  ///< stop when the cheapest costs more
   /// A triangle's normal may turn by up to acos of this in one collapse.
   float min_cosine = 0.2f;
-  /// Costs that a collapse has changed are looked at again only when they come to the top of the
+  /// Costs that a collapse has changed are evaluated again only when they come to the top of the
   /// heap [Cohen et al. 1997]: fewer evaluations, an order that is nearly the same.
   bool lazy = false;
 };
@@ -43,14 +43,16 @@ inline Refusal as_refusal(Refusal refusal) {
 /// - float cost_at_least(u, v), if there is one: something cheaper that cost(u, v) is not below;
 /// - bool or Refusal allows(mesh, u, v): a last check before the collapse is made;
 /// - void fetch(v), if there is one: brings what cost() reads of v into the cache;
-/// - void traced(u, v, trace), if there is one: told what happened to the triangles;
-/// - void collapsed(u, v): told after it.
+/// - void traced(u, v, trace), if there is one: called after the triangles have changed;
+/// - void collapsed(u, v): called after the collapse.
 /// For full-edge collapses:
-/// - glm::vec3 place(u, v): where both go; cost and place are the same for (u, v) and (v, u);
-/// - bool may_collapse(u, v), if there is one: whether u may be what goes; without it the lower
-/// one;
-/// - bool stays(), if there is one: whether v stays where it is in the collapse placed last;
-/// - void collapsed(u, v, place): moves v.
+/// - glm::vec3 optimal_position(u, v): where both go; it and the cost are the same for (u, v) and
+///   (v, u);
+/// - bool may_collapse(u, v), if there is one: whether u may be the vertex that is removed;
+///   without it, the lower one is;
+/// - bool stays(), if there is one: whether v must keep its position in the collapse of the last
+///   optimal_position();
+/// - void collapsed(u, v, position): moves v.
 /// Metric::kReach (1 where there is none): 1 when a collapse u -> v changes costs of pairs with v
 /// only; 2 when it changes those of every vertex around v.
 ///
@@ -80,7 +82,7 @@ class CollapseLoop {
     while (mesh_.n_triangles() > limits.target_triangles && !heap_.empty()) {
       const std::uint32_t u = heap_.top(), v = target_[u];
       fetch_next();
-      if (stale_[u] || (kReach > 1 && kPlaces && metric_cost(u, v) > heap_.key(u))) {
+      if (stale_[u] || (kReach > 1 && kHasPlacement && metric_cost(u, v) > heap_.key(u))) {
         choose(u);
         continue;
       }
@@ -114,7 +116,7 @@ class CollapseLoop {
     }
   };
   static constexpr bool kEstimates = requires(Metric m) { m.cost_at_least(0u, 0u); };
-  static constexpr bool kPlaces = requires(Metric m) { m.place(0u, 0u); };
+  static constexpr bool kHasPlacement = requires(Metric m) { m.optimal_position(0u, 0u); };
   static constexpr int reach() {
     if constexpr (requires { Metric::kReach; }) return Metric::kReach;
     return 1;
@@ -128,7 +130,7 @@ class CollapseLoop {
   // A full-edge collapse is the same from both ends: the edge is a candidate of its lower one only.
   bool is_candidate(std::uint32_t u, std::uint32_t v) {
     if constexpr (requires { metric_.may_collapse(u, v); }) return metric_.may_collapse(u, v);
-    return !kPlaces || u < v;
+    return !kHasPlacement || u < v;
   }
 
   float metric_cost(std::uint32_t u, std::uint32_t v) {
@@ -139,12 +141,12 @@ class CollapseLoop {
 
   Refusal check(std::uint32_t u, std::uint32_t v, const CollapseLimits& limits) {
     Refusal refusal;
-    if constexpr (kPlaces) {
-      place_ = metric_.place(u, v);
+    if constexpr (kHasPlacement) {
+      position_ = metric_.optimal_position(u, v);
       bool stays = false;
       if constexpr (requires { metric_.stays(); }) stays = metric_.stays();
       refusal = stays ? mesh_.check(u, v, limits.min_cosine)
-                      : mesh_.check(u, v, place_, limits.min_cosine);
+                      : mesh_.check(u, v, position_, limits.min_cosine);
     } else {
       refusal = mesh_.check(u, v, limits.min_cosine);
     }
@@ -152,7 +154,7 @@ class CollapseLoop {
   }
 
   // Brings what the next collapses read into the cache while this one is made: each vertex goes
-  // through the five places one after another, and each stage has what the one before has fetched.
+  // through the five stages one after another, and each stage has what the one before has fetched.
   void fetch_next() const {
     const auto [first, second, third, fourth, fifth] = heap_.next();
     if (fifth == IndexedHeap::kNone) return;
@@ -223,8 +225,8 @@ class CollapseLoop {
   void make(std::uint32_t u, std::uint32_t v, bool lazy) {
     mesh_.collapse(u, v, &trace_);
     if constexpr (requires { metric_.traced(u, v, trace_); }) metric_.traced(u, v, trace_);
-    if constexpr (kPlaces)
-      metric_.collapsed(u, v, place_);
+    if constexpr (kHasPlacement)
+      metric_.collapsed(u, v, position_);
     else
       metric_.collapsed(u, v);
     heap_.erase(u);
@@ -259,7 +261,7 @@ class CollapseLoop {
   std::vector<std::uint32_t> ring_, around_;
   std::vector<Candidate> candidates_;
   CollapseTrace trace_;
-  glm::vec3 place_{0};
+  glm::vec3 position_{0};
   std::size_t n_costs_ = 0;
 };
 

@@ -53,53 +53,53 @@ struct Walk {
 }  // namespace
 
 bool CollapseMap::gather(std::uint32_t u) {
-  if (star_.of() != u) placed_.clear(), places_.clear();
+  if (star_.of() != u) located_.clear(), locations_.clear();
   return star_.gather(u);
 }
 
-bool CollapseMap::place(std::uint32_t u, std::uint32_t v) {
+bool CollapseMap::locate(std::uint32_t u, std::uint32_t v) {
   if (!gather(u)) return false;
-  auto found = std::find_if(placed_.begin(), placed_.end(), [&](auto& p) { return p.v == v; });
-  if (found == placed_.end()) {
-    Placed placed{v, true, places_.size()};
+  auto found = std::find_if(located_.begin(), located_.end(), [&](auto& p) { return p.v == v; });
+  if (found == located_.end()) {
+    Located located{v, true, locations_.size()};
     for (const Sector& sector : star_.sectors()) {
-      Place& place = places_.emplace_back();
-      placed.is_legal =
-          placed.is_legal && place_sector(sector, v, place) && choose_face(sector, place);
+      Location& location = locations_.emplace_back();
+      located.is_legal =
+          located.is_legal && locate_sector(sector, v, location) && choose_face(sector, location);
     }
-    found = placed_.insert(placed_.end(), placed);
+    found = located_.insert(located_.end(), located);
   }
-  last_ = std::span<const Place>(places_).subspan(found->first, star_.sectors().size());
+  last_ = std::span<const Location>(locations_).subspan(found->first, star_.sectors().size());
   return found->is_legal;
 }
 
-bool CollapseMap::place_sector(const Sector& sector, std::uint32_t v, Place& place) const {
+bool CollapseMap::locate_sector(const Sector& sector, std::uint32_t v, Location& location) const {
   const auto& rim = sector.rim;
-  while (place.v < rim.size() && rim[place.v].vertex != v) ++place.v;
-  if (place.v == rim.size()) return false;
-  if (!sector.is_closed && place.v != 0 && place.v + 1 != rim.size()) return false;
-  place.step = sector.is_closed || place.v == 0 ? 1 : -1;
-  place.apex = rim[place.v].to;
+  while (location.v < rim.size() && rim[location.v].vertex != v) ++location.v;
+  if (location.v == rim.size()) return false;
+  if (!sector.is_closed && location.v != 0 && location.v + 1 != rim.size()) return false;
+  location.step = sector.is_closed || location.v == 0 ? 1 : -1;
+  location.apex = rim[location.v].to;
   return true;
 }
 
 // New faces are (v, rim[j], rim[j + 1]) for j in [1, size - 2], open or closed.
-bool CollapseMap::choose_face(const Sector& sector, Place& place) const {
-  place.after = {glm::dvec3(kInfinity)};
+bool CollapseMap::choose_face(const Sector& sector, Location& location) const {
+  location.after = {glm::dvec3(kInfinity)};
   if (!sector.is_closed)
-    choose_on_edge(sector, place);
+    choose_on_edge(sector, location);
   else if (matching_ == Matching::texture)
-    choose_by_texture(sector, place);
+    choose_by_texture(sector, location);
   else
-    choose_by_distance(sector, place);
-  place.face = Walk{sector, place.v, place.step}.face(place.middle);
-  return is_finite(place.after.at);
+    choose_by_distance(sector, location);
+  location.face = Walk{sector, location.v, location.step}.face(location.middle);
+  return is_finite(location.after.at);
 }
 
-void CollapseMap::choose_on_edge(const Sector& sector, Place& place) const {
-  const Walk rim{sector, place.v, place.step};
+void CollapseMap::choose_on_edge(const Sector& sector, Location& location) const {
+  const Walk rim{sector, location.v, location.step};
   const std::size_t n = sector.rim.size();
-  place.middle = n - 2;
+  location.middle = n - 2;
   const CollapseStar::Rim &v = rim[0], &far = rim[n - 1];
   double t = 0;
   if (matching_ == Matching::texture) {
@@ -107,15 +107,15 @@ void CollapseMap::choose_on_edge(const Sector& sector, Place& place) const {
     const double length2 = glm::dot(edge, edge);
     t = length2 > 0 ? std::clamp(-glm::dot(v.uv, edge) / length2, 0.0, 1.0) : 0;
   } else {
-    t = closest_on_segment(glm::dvec3(0), place.apex, far.to);
+    t = closest_on_segment(glm::dvec3(0), location.apex, far.to);
   }
   const double inside = matching_ == Matching::texture ? t : std::clamp(t, kInside, 1 - kInside);
-  place.after = {glm::mix(place.apex, far.to, t), glm::mix(v.uv, far.uv, inside)};
+  location.after = {glm::mix(location.apex, far.to, t), glm::mix(v.uv, far.uv, inside)};
 }
 
 // The new face that u's texture coordinates lie in, or the one that they are least outside of.
-void CollapseMap::choose_by_texture(const Sector& sector, Place& place) const {
-  const Walk rim{sector, place.v, place.step};
+void CollapseMap::choose_by_texture(const Sector& sector, Location& location) const {
+  const Walk rim{sector, location.v, location.step};
   double best = -kInfinity;
   const CollapseStar::Rim& v = rim[0];
   for (std::size_t j = 1; j + 1 < sector.rim.size(); ++j) {
@@ -127,105 +127,107 @@ void CollapseMap::choose_by_texture(const Sector& sector, Place& place) const {
     const double inside = std::min({w.x, w.y, w.z});
     if (!(inside > best)) continue;
     best = inside;
-    place.middle = j;
+    location.middle = j;
     w = glm::max(w, glm::dvec3(0));
     w /= w.x + w.y + w.z;
-    place.after = {w.x * place.apex + w.y * b.to + w.z * c.to,
-                   w.x * v.uv + w.y * b.uv + w.z * c.uv};
+    location.after = {w.x * location.apex + w.y * b.to + w.z * c.to,
+                      w.x * v.uv + w.y * b.uv + w.z * c.uv};
   }
 }
 
-void CollapseMap::choose_by_distance(const Sector& sector, Place& place) const {
-  const Walk rim{sector, place.v, place.step};
+void CollapseMap::choose_by_distance(const Sector& sector, Location& location) const {
+  const Walk rim{sector, location.v, location.step};
   double best = kInfinity;
   for (std::size_t j = 1; j + 1 < sector.rim.size(); ++j) {
     const glm::dvec3 p =
-        closest_point_on_triangle(glm::dvec3(0), place.apex, rim[j].to, rim[j + 1].to);
+        closest_point_on_triangle(glm::dvec3(0), location.apex, rim[j].to, rim[j + 1].to);
     const double distance2 = glm::dot(p, p);
     if (!(distance2 < best)) continue;
     best = distance2;
-    place.middle = j;
-    place.after.at = p;
+    location.middle = j;
+    location.after.at = p;
   }
   if (best < kInfinity)
-    place.after =
-        point_on({place.apex, rim[0].uv}, rim[place.middle], rim[place.middle + 1], place.after.at);
+    location.after = point_on({location.apex, rim[0].uv}, rim[location.middle],
+                              rim[location.middle + 1], location.after.at);
 }
 
-bool CollapseMap::lay(std::uint32_t u, std::uint32_t v) {
+bool CollapseMap::build(std::uint32_t u, std::uint32_t v) {
   overlay_.clear();
-  return place(u, v) && lay_last(v);
+  return locate(u, v) && build_located(v);
 }
 
-bool CollapseMap::lay(std::uint32_t u, std::uint32_t v, const glm::dvec3& apex) {
+bool CollapseMap::build(std::uint32_t u, std::uint32_t v, const glm::dvec3& apex) {
   overlay_.clear();
   if (!gather(u)) return false;
   moved_.clear();
   for (const Sector& sector : star_.sectors()) {
-    Place& place = moved_.emplace_back();
-    if (!place_sector(sector, v, place)) return false;
-    place.apex = apex - glm::dvec3(positions_[u]);
-    if (!choose_face(sector, place)) return false;
+    Location& location = moved_.emplace_back();
+    if (!locate_sector(sector, v, location)) return false;
+    location.apex = apex - glm::dvec3(positions_[u]);
+    if (!choose_face(sector, location)) return false;
   }
   last_ = moved_;
-  return lay_last(v);
+  return build_located(v);
 }
 
-bool CollapseMap::lay_last(std::uint32_t v) {
+bool CollapseMap::build_located(std::uint32_t v) {
   for (std::size_t i = 0; i < last_.size(); ++i) {
     const Sector& sector = star_.sectors()[i];
     if (sector.rim.size() > 2)
-      lay_sector(sector, last_[i]);
-    else if (!lay_lone(sector, last_[i], v))
+      build_sector(sector, last_[i]);
+    else if (!build_vanishing(sector, last_[i], v))
       return false;
   }
   return true;
 }
 
-void CollapseMap::lay_sector(const Sector& sector, const Place& place) {
-  const Walk rim{sector, place.v, place.step};
-  const std::size_t n = sector.rim.size(), m = place.middle;
-  const FanPoint apex{place.apex, rim[0].uv};
-  overlay_.start(apex, sector.origin, place.step < 0);
+void CollapseMap::build_sector(const Sector& sector, const Location& location) {
+  const Walk rim{sector, location.v, location.step};
+  const std::size_t n = sector.rim.size(), m = location.middle;
+  const FanPoint apex{location.apex, rim[0].uv};
+  overlay_.start(apex, sector.origin, location.step < 0);
   overlay_.add_ray(apex, rim.face(0));
   for (std::size_t i = 1; i < n; ++i) overlay_.add_ray({rim[i].to, rim[i].uv}, rim.face(i));
-  overlay_.add_old_apex(m, place.after);
-  overlay_.add_side(0, true, m, apex, place.after);
-  if (sector.is_closed) overlay_.add_side(n, false, n - 1 - m, apex, place.after);
+  overlay_.add_old_apex(m, location.after);
+  overlay_.add_side(0, true, m, apex, location.after);
+  if (sector.is_closed) overlay_.add_side(n, false, n - 1 - m, apex, location.after);
 }
 
-// A lone triangle, of which an edge remains: some face there takes it.
-bool CollapseMap::lay_lone(const Sector& sector, const Place& place, std::uint32_t v) {
-  const Walk rim{sector, place.v, place.step};
+// A triangle that is alone in its sector vanishes but for an edge: some face at that edge inherits
+// its surface.
+bool CollapseMap::build_vanishing(const Sector& sector, const Location& location, std::uint32_t v) {
+  const Walk rim{sector, location.v, location.step};
   const std::uint32_t u = star_.of(), far = rim[1].vertex;
-  std::uint32_t heir = 0;
+  std::uint32_t inheriting_face = 0;
   bool found = false;
   mesh_.for_each_corner(v, [&](std::uint32_t c) {
     const std::uint32_t t = 3 * (c / 3), a = t + (c + 1 - t) % 3, b = t + (c + 2 - t) % 3;
     const std::uint32_t va = mesh_.vertex_at(a), vb = mesh_.vertex_at(b);
-    if (va != u && vb != u && (va == far || vb == far)) heir = c / 3, found = true;
+    if (va != u && vb != u && (va == far || vb == far)) inheriting_face = c / 3, found = true;
   });
   if (!found) return false;
-  const std::uint32_t to = star_.place_of(heir);
-  const FanPoint apex{place.apex, rim[0].uv};
-  overlay_.start(apex, sector.origin, place.step < 0);
+  const std::uint32_t to = star_.index_of(inheriting_face);
+  const FanPoint apex{location.apex, rim[0].uv};
+  overlay_.start(apex, sector.origin, location.step < 0);
   overlay_.add_ray(apex, rim.face(0));
   overlay_.add_ray({rim[1].to, rim[1].uv}, rim.face(0));
-  overlay_.add_lone(to, place.after);
+  overlay_.add_vanishing_face(to, location.after);
   return true;
 }
 
-bool CollapseMap::lay_move(std::uint32_t v, const glm::dvec3& apex,
-                           std::span<const WedgeMove> texcoords) {
+bool CollapseMap::build_move(std::uint32_t v, const glm::dvec3& apex,
+                             std::span<const WedgeMove> texcoords) {
   overlay_.clear();
   if (!gather(v)) return false;
   const glm::dvec3 to = apex - glm::dvec3(positions_[v]);
   if (!is_finite(to)) return false;
   for (const Sector& sector : star_.sectors()) {
-    FanPoint place{to};
+    FanPoint location{to};
     for (const WedgeMove& move : texcoords)
-      if (move.wedge == sector.wedge) place.texture = glm::dvec2(move.texcoord) - sector.origin;
-    if (!(sector.is_closed ? move_closed(sector, place) : move_open(sector, place))) return false;
+      if (move.wedge == sector.wedge) location.texture = glm::dvec2(move.texcoord) - sector.origin;
+    if (!(sector.is_closed ? move_closed(sector, location) : move_open(sector, location)))
+      return false;
   }
   return true;
 }

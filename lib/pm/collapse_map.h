@@ -33,8 +33,8 @@ struct WedgeMove {
 /// so every cell lies in one old and one new face, and a maximum over corners is one over the cell.
 /// On a boundary of the mesh or of a texture chart u goes to the new boundary edge.
 ///
-/// A full-edge collapse is two maps, one after the other: v moves to the new place, by lay_move(),
-/// then u collapses into v there, by lay() with that place.
+/// A full-edge collapse is two maps, one after the other: v moves to the new position, by
+/// build_move(), then u collapses into v there, by build() with that apex.
 class CollapseMap {
  public:
   /// Keeps references. keep: what is made of cells. Not thread-safe.
@@ -47,61 +47,63 @@ class CollapseMap {
         matching_(matching),
         overlay_(matching, keep) {}
 
-  /// Finds where u goes. False when there is no map: the star of u is no fan, v is not at its
-  /// boundary's end, or a part of the surface has no face to go to.
-  bool place(std::uint32_t u, std::uint32_t v);
-  /// The same, and lays out the cells.
-  bool lay(std::uint32_t u, std::uint32_t v);
+  /// Finds the point of the new surface that u is mapped to. False when there is no map: the star
+  /// of u is no fan, v is not at its boundary's end, or a part of the surface has no face to go to.
+  bool locate(std::uint32_t u, std::uint32_t v);
+  /// The same, and builds the overlay cells.
+  bool build(std::uint32_t u, std::uint32_t v);
   /// The same, as if v were at `apex`. Matching::nearest only.
-  bool lay(std::uint32_t u, std::uint32_t v, const glm::dvec3& apex);
+  bool build(std::uint32_t u, std::uint32_t v, const glm::dvec3& apex);
   /// The map of v's faces when v moves to `apex`, and in the texture its wedges to `texcoords`,
   /// where they are given. Matching::nearest only.
-  bool lay_move(std::uint32_t v, const glm::dvec3& apex, std::span<const WedgeMove> texcoords = {});
+  bool build_move(std::uint32_t v, const glm::dvec3& apex,
+                  std::span<const WedgeMove> texcoords = {});
   /// To be called when the mesh has changed.
   void forget() { star_.forget(); }
 
-  /// Of the last place() or lay(): calls visit(face, shift) for every sector of the star, with the
-  /// face that takes u in it (a place in faces()) and how far u is from there.
+  /// Of the last locate() or build(): calls visit(face, shift) for every sector of the star, with
+  /// the new face that u is mapped to (an index into faces()) and u minus the point there.
   template <typename Visit>
-  void for_each_place(Visit&& visit) const {
-    for (const Place& p : last_) visit(p.face, -make_double4(p.after.at));
+  void for_each_location(Visit&& visit) const {
+    for (const Location& p : last_) visit(p.face, -make_double4(p.after.at));
   }
-  /// The vertex that goes, or moves.
+  /// The vertex that is removed, or moves.
   std::uint32_t u() const { return star_.of(); }
-  /// A seam of the texture ends in u. The map is right in space, but not in the texture at the
-  /// seam.
-  bool is_torn() const { return star_.is_torn(); }
-  /// The faces of u, by their numbers in the mesh, and those that take over from lone triangles.
+  /// Whether a texture seam ends in u: then the map is right in space, but not in the texture at
+  /// the seam.
+  bool has_seam_end() const { return star_.has_seam_end(); }
+  /// The faces of u, by their numbers in the mesh, and the faces that inherit the surface of a
+  /// triangle that is alone in its sector and vanishes.
   std::span<const std::uint32_t> faces() const { return star_.faces(); }
-  /// Of the last lay() or lay_move(); faces are places in faces().
+  /// Of the last build() or build_move(); faces are indices into faces().
   const FanOverlay& overlay() const { return overlay_; }
 
  private:
   using Sector = CollapseStar::Sector;
   // Where u goes in one sector: into the new face (v, rim middle, rim middle + 1), counted from v.
-  struct Place {
+  struct Location {
     std::size_t v = 0;  // of the sector's rim
     int step = 1;       // the way that the sector is walked from v
     std::size_t middle = 0;
     std::uint32_t face = 0;
     glm::dvec3 apex{0};  // v, relative to u
-    FanPoint after;      // u's new place
+    FanPoint after;      // the point of the new surface for u
   };
-  struct Placed {  // the places of all sectors for one target
+  struct Located {  // the locations in all sectors for one target
     std::uint32_t v;
     bool is_legal;
     std::size_t first;
   };
 
   bool gather(std::uint32_t u);
-  bool place_sector(const Sector& sector, std::uint32_t v, Place& place) const;
-  bool choose_face(const Sector& sector, Place& place) const;
-  void choose_by_texture(const Sector& sector, Place& place) const;
-  void choose_by_distance(const Sector& sector, Place& place) const;
-  void choose_on_edge(const Sector& sector, Place& place) const;
-  bool lay_last(std::uint32_t v);
-  void lay_sector(const Sector& sector, const Place& place);
-  bool lay_lone(const Sector& sector, const Place& place, std::uint32_t v);
+  bool locate_sector(const Sector& sector, std::uint32_t v, Location& location) const;
+  bool choose_face(const Sector& sector, Location& location) const;
+  void choose_by_texture(const Sector& sector, Location& location) const;
+  void choose_by_distance(const Sector& sector, Location& location) const;
+  void choose_on_edge(const Sector& sector, Location& location) const;
+  bool build_located(std::uint32_t v);
+  void build_sector(const Sector& sector, const Location& location);
+  bool build_vanishing(const Sector& sector, const Location& location, std::uint32_t v);
   FanPoint point_on(const FanPoint& top, const CollapseStar::Rim& b, const CollapseStar::Rim& c,
                     const glm::dvec3& at) const;
   bool move_closed(const Sector& sector, const FanPoint& apex);
@@ -112,9 +114,9 @@ class CollapseMap {
   CollapseStar star_;
   Matching matching_;
   FanOverlay overlay_;
-  std::vector<Placed> placed_;  // of the star's vertex
-  std::vector<Place> places_, moved_;
-  std::span<const Place> last_;
+  std::vector<Located> located_;  // of the star's vertex
+  std::vector<Location> locations_, moved_;
+  std::span<const Location> last_;
 };
 
 }  // namespace viewcell

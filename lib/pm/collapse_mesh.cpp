@@ -69,15 +69,15 @@ Refusal CollapseMesh::check(std::uint32_t u, std::uint32_t v, float min_cosine) 
   return check_move(fan_u_, u, v, positions_[v], min_cosine);
 }
 
-Refusal CollapseMesh::check(std::uint32_t u, std::uint32_t v, const glm::vec3& place,
+Refusal CollapseMesh::check(std::uint32_t u, std::uint32_t v, const glm::vec3& position,
                             float min_cosine) {
   bool is_boundary_edge = false;
   gather(u, fan_u_);
   gather(v, fan_v_);
   if (!keeps_topology(fan_u_, u, v, is_boundary_edge)) return Refusal::link;
   if (!is_boundary_edge && fan_u_.has_odd_edge() && fan_v_.has_odd_edge()) return Refusal::boundary;
-  const Refusal refusal = check_move(fan_u_, u, v, place, min_cosine);
-  return refusal != Refusal::none ? refusal : check_move(fan_v_, v, u, place, min_cosine);
+  const Refusal refusal = check_move(fan_u_, u, v, position, min_cosine);
+  return refusal != Refusal::none ? refusal : check_move(fan_v_, v, u, position, min_cosine);
 }
 
 // The link condition [Dey et al. 1999]: a vertex joined to both u and v must

@@ -50,7 +50,8 @@ class CollapseMesh {
     for (const std::uint32_t c : corners(v)) visit(c);
   }
 
-  /// Hints that v's triangles are wanted soon: each brings in what the next one reads.
+  /// Prefetches for a visit of v's triangles, in three stages: each reads what the one before has
+  /// fetched.
   void fetch_star(std::uint32_t v) const { __builtin_prefetch(&stars_[v]); }
   void fetch_corners(std::uint32_t v) const {
     __builtin_prefetch(corners(v).data());
@@ -68,9 +69,9 @@ class CollapseMesh {
   /// acos(min_cosine) nor makes one of no area. A triangle on its own may vanish.
   /// Not thread-safe (scratch lists).
   Refusal check(std::uint32_t u, std::uint32_t v, float min_cosine);
-  /// The same for the full-edge collapse of u and v into `place`: both vertices move, and an edge
-  /// from boundary to boundary through the inside is refused.
-  Refusal check(std::uint32_t u, std::uint32_t v, const glm::vec3& place, float min_cosine);
+  /// The same for the full-edge collapse of u and v into `position`: both vertices move, and an
+  /// edge from boundary to boundary through the inside is refused.
+  Refusal check(std::uint32_t u, std::uint32_t v, const glm::vec3& position, float min_cosine);
 
   /// Collapses u into v: triangles with both die, the others of u get v in its place. trace: set to
   /// what was done.

@@ -7,7 +7,7 @@ namespace viewcell {
 bool CollapseStar::gather(std::uint32_t u) {
   if (of_ == u) return is_legal_;
   of_ = u;
-  is_legal_ = is_torn_ = false;
+  is_legal_ = has_seam_end_ = false;
   spokes_.clear(), rim_.clear(), sectors_.clear(), faces_.clear();
   mesh_.for_each_corner(u, [&](std::uint32_t c) {
     const std::uint32_t t = 3 * (c / 3), a = t + (c + 1 - t) % 3, b = t + (c + 2 - t) % 3;
@@ -52,16 +52,16 @@ bool CollapseStar::order(std::size_t first, std::size_t last) {
     if (n + 1 < last) {
       at = find(&Spoke::a, spoke.b);
       if (at == last) return false;  // several fans
-      is_torn_ = is_torn_ || differ(spoke.wedge_b, spokes_[at].wedge_a);
+      has_seam_end_ = has_seam_end_ || differ(spoke.wedge_b, spokes_[at].wedge_a);
     } else {
       is_closed = spoke.b == start;
-      is_torn_ = is_torn_ || (is_closed && differ(spoke.wedge_b, rim_[begin].wedge));
+      has_seam_end_ = has_seam_end_ || (is_closed && differ(spoke.wedge_b, rim_[begin].wedge));
       if (!is_closed) rim_.push_back({spoke.b, spoke.wedge_b, 0, {}, {}});
     }
   }
   if (!meets_each_once(begin) || (is_closed && rim_.size() - begin < 3)) return false;
   const std::uint32_t wedge_u = spokes_[first].wedge_u;
-  locate(begin, wedge_u);
+  fill_rim_vectors(begin, wedge_u);
   sectors_.push_back({std::span<const Rim>(rim_).subspan(begin), is_closed,
                       texcoords_.empty() ? glm::dvec2(0) : glm::dvec2(texcoords_[wedge_u]),
                       wedge_u});
@@ -79,7 +79,7 @@ bool CollapseStar::meets_each_once(std::size_t first) const {
   return true;
 }
 
-void CollapseStar::locate(std::size_t first, std::uint32_t wedge_u) {
+void CollapseStar::fill_rim_vectors(std::size_t first, std::uint32_t wedge_u) {
   const glm::dvec3 u(positions_[of_]);
   for (std::size_t i = first; i < rim_.size(); ++i) {
     rim_[i].to = glm::dvec3(positions_[rim_[i].vertex]) - u;
@@ -88,11 +88,11 @@ void CollapseStar::locate(std::size_t first, std::uint32_t wedge_u) {
   }
 }
 
-std::uint32_t CollapseStar::place_of(std::uint32_t face) {
+std::uint32_t CollapseStar::index_of(std::uint32_t face) {
   const auto found = std::find(faces_.begin(), faces_.end(), face);
-  const auto place = static_cast<std::uint32_t>(found - faces_.begin());
+  const auto index = static_cast<std::uint32_t>(found - faces_.begin());
   if (found == faces_.end()) faces_.push_back(face);
-  return place;
+  return index;
 }
 
 }  // namespace viewcell

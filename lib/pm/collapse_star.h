@@ -1,4 +1,4 @@
-// The triangles around a vertex, in order, sector by sector.
+// The star of a vertex: its triangles in order around it, one sector a texture chart.
 #pragma once
 
 #include <cstdint>
@@ -10,15 +10,16 @@
 
 namespace viewcell {
 
-/// The star of one vertex u at a time. Where u lies on borders of texture charts its wedges cut the
-/// star into sectors; elsewhere, and without texture coordinates, there is one. Places are relative
-/// to u.
+/// The star of one vertex u at a time: the triangles at u. A sector is the part of the star that
+/// lies in one texture chart: several where u lies on borders of charts, else one, as without
+/// texture coordinates. Positions and
+/// texture coordinates are relative to u.
 class CollapseStar {
  public:
-  /// A neighbour of u.
+  /// A neighbour of u; the neighbours in order are the rim of the star.
   struct Rim {
     std::uint32_t vertex, wedge;
-    std::uint32_t face;  ///< place in faces() of the triangle from here to the next
+    std::uint32_t face;  ///< index into faces() of the triangle from here to the next
     glm::dvec3 to;       ///< from u
     glm::dvec2 uv;       ///< from u, in the texture; 0 without texture coordinates
   };
@@ -35,18 +36,18 @@ class CollapseStar {
                std::span<const glm::vec3> positions, std::span<const glm::vec2> texcoords)
       : mesh_(mesh), wedges_(wedges), positions_(positions), texcoords_(texcoords) {}
 
-  /// False when some sector is not one fan that meets each neighbour once. What was gathered last
-  /// is kept until forget().
+  /// False when some sector is not one fan (triangles joined edge to edge around u) with every
+  /// neighbour once. The last star is cached until forget().
   bool gather(std::uint32_t u);
   void forget() { of_ = kNone; }
-  /// Whether a seam ends in u: a neighbour in one sector has two places in the texture, and Rim::uv
-  /// is one of them.
-  bool is_torn() const { return is_torn_; }
+  /// Whether a texture seam ends in u: some neighbour then has two texture coordinates within one
+  /// sector, and Rim::uv is one of them.
+  bool has_seam_end() const { return has_seam_end_; }
   std::uint32_t of() const { return of_; }
   const std::vector<Sector>& sectors() const { return sectors_; }
   const std::vector<std::uint32_t>& faces() const { return faces_; }
-  /// Appends a face that is not of u, or finds it; returns its place in faces().
-  std::uint32_t place_of(std::uint32_t face);
+  /// Appends a face that is not of u, or finds it; returns its index into faces().
+  std::uint32_t index_of(std::uint32_t face);
 
  private:
   static constexpr std::uint32_t kNone = 0xffffffffu;
@@ -56,14 +57,14 @@ class CollapseStar {
   bool order(std::size_t first, std::size_t last);
   bool differ(std::uint32_t wedge_a, std::uint32_t wedge_b) const;
   bool meets_each_once(std::size_t first) const;
-  void locate(std::size_t first, std::uint32_t wedge_u);
+  void fill_rim_vectors(std::size_t first, std::uint32_t wedge_u);
 
   const CollapseMesh& mesh_;
   const WedgeTable& wedges_;
   std::span<const glm::vec3> positions_;
   std::span<const glm::vec2> texcoords_;
   std::uint32_t of_ = kNone;
-  bool is_legal_ = false, is_torn_ = false;
+  bool is_legal_ = false, has_seam_end_ = false;
   std::vector<Spoke> spokes_;
   std::vector<Rim> rim_;
   std::vector<Sector> sectors_;

@@ -22,9 +22,9 @@ void DeviationBoxes::add(const CollapseMap& map, Change& change) {
     to.is_new ? to.after.add(box) : void(to.after = box);
     to.is_new = true;
   }
-  std::erase_if(change, [&](const Next& next) {  // told anew below, or gone
-    const auto place = std::find(faces.begin(), faces.end(), next.face) - faces.begin();
-    const auto i = static_cast<std::size_t>(place);
+  std::erase_if(change, [&](const Next& next) {  // set below, or its face vanishes
+    const auto found = std::find(faces.begin(), faces.end(), next.face) - faces.begin();
+    const auto i = static_cast<std::size_t>(found);
     return i < faces.size() && local_[i].is_old;
   });
   for (std::size_t i = 0; i < faces.size(); ++i)
@@ -39,14 +39,14 @@ float DeviationBoxes::cost(const Change& change) const {
 
 float DeviationBoxes::least_reach(const CollapseMap& map) const {
   float reach2 = 0;
-  map.for_each_place([&](std::uint32_t face, const Double4& shift) {
+  map.for_each_location([&](std::uint32_t face, const Double4& shift) {
     const Float4 s = __builtin_convertvector(shift, Float4);
     reach2 = std::max(reach2, boxes_[map.faces()[face]].plus({s, s}).reach2());
   });
   return std::sqrt(reach2) * (1 - 1e-6f);
 }
 
-void DeviationBoxes::take(const Change& change) {
+void DeviationBoxes::accept(const Change& change) {
   for (const Next& next : change) boxes_[next.face] = next.box;
   bound_ = std::max(bound_, cost(change));
 }

@@ -11,9 +11,9 @@
 namespace viewcell {
 
 /// Every face has a box of vectors that holds the deviations, point of the input minus matched
-/// point, of all its points; maps of collapses hand them on. Every point of the mesh and of the
-/// input is in some such pair, so the farthest reach of the boxes bounds the distance both ways.
-/// Follows: [Cohen 1998 4.3], [Chen06 4.2.1].
+/// point, of all its points; the map of a collapse passes them on to the new faces. Every point of
+/// the mesh and of the input is in some such pair, so the farthest reach of the boxes bounds the
+/// distance both ways. Follows: [Cohen 1998 4.3], [Chen06 4.2.1].
 class DeviationBoxes {
  public:
   static constexpr bool kMoments = false;  ///< whether maps must have them
@@ -30,12 +30,14 @@ class DeviationBoxes {
   void add(const CollapseMap& map, Change& change);
   /// The farthest reach of the faces of a change.
   float cost(const Change& change) const;
-  /// Of u's own deviation after the map's last place(); that of the whole map is not below it.
+  /// A lower bound of cost() for the map's last locate(): the reach at u alone.
   float least_reach(const CollapseMap& map) const;
-  void take(const Change& change);
-  /// A part of the input has nothing that it is matched with: bound() is infinite from now on.
-  void lose() { bound_ = std::numeric_limits<float>::infinity(); }
-  /// Of a face: its points are as far from the input at most.
+  /// The collapse with this change is made.
+  void accept(const Change& change);
+  /// A collapse without a map is made: part of the input is matched with nothing, and bound() is
+  /// infinite from now on.
+  void invalidate() { bound_ = std::numeric_limits<float>::infinity(); }
+  /// No point of the face is farther than this from the input.
   float reach(std::uint32_t face) const { return std::sqrt(boxes_[face].reach2()); }
   /// No point of the mesh, nor of the input, is farther than this from the other surface.
   float bound() const { return bound_; }
@@ -48,7 +50,7 @@ class DeviationBoxes {
   const VectorBox& box_of(std::uint32_t face, const Change& change) const;
 
   std::vector<VectorBox> boxes_;  // by face
-  std::vector<Local> local_;      // by place in CollapseMap::faces()
+  std::vector<Local> local_;      // by index into CollapseMap::faces()
   float bound_ = 0;
 };
 

@@ -27,20 +27,20 @@ void DeviationMoments::add(const CollapseMap& map, Change& change) {
   const auto faces = map.faces();
   local_.assign(faces.size(), {});
   for (std::size_t i = 0; i < faces.size(); ++i) local_[i].before = moments_of(faces[i], change);
-  share_out(map);
+  distribute(map);
   for (const Local& l : local_)
     change.increase += l.after.square - (l.is_old ? l.before.square : 0);
-  std::erase_if(change.faces, [&](const Next& next) {  // told anew below, or gone
-    const auto place = std::find(faces.begin(), faces.end(), next.face) - faces.begin();
-    const auto i = static_cast<std::size_t>(place);
+  std::erase_if(change.faces, [&](const Next& next) {  // set below, or its face vanishes
+    const auto found = std::find(faces.begin(), faces.end(), next.face) - faces.begin();
+    const auto i = static_cast<std::size_t>(found);
     return i < faces.size() && local_[i].is_old;
   });
   for (std::size_t i = 0; i < faces.size(); ++i)
     if (local_[i].is_new) change.faces.push_back({faces[i], local_[i].after});
 }
 
-// Each cell takes its share of the old face's points to the new face.
-void DeviationMoments::share_out(const CollapseMap& map) {
+// Each overlay cell adds its area's share of the old face's moments to those of the new face.
+void DeviationMoments::distribute(const CollapseMap& map) {
   const std::vector<MapCell>& cells = map.overlay().cells();
   const std::vector<CellMoments>& moments = map.overlay().moments();
   for (std::size_t i = 0; i < cells.size(); ++i) {
@@ -66,7 +66,7 @@ float DeviationMoments::cost(const Change& change) const {
   return static_cast<float>(std::sqrt(std::max(change.increase, 0.0) / area_));
 }
 
-void DeviationMoments::take(const Change& change) {
+void DeviationMoments::accept(const Change& change) {
   for (const Next& next : change.faces) moments_[next.face] = next.moments;
 }
 

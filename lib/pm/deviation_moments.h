@@ -11,8 +11,8 @@
 namespace viewcell {
 
 /// Every face has area, sum and sum of squares of the deviations, point of the input minus matched
-/// point, over the part of the input that it stands for; maps of collapses hand them on. The
-/// deviations within a face are taken to be independent of the next shift.
+/// point, over the part of the input that it stands for; the map of a collapse passes them on
+/// to the new faces. Within a face the deviations are assumed to be independent of the next shift.
 class DeviationMoments {
  public:
   struct Moments {
@@ -38,8 +38,9 @@ class DeviationMoments {
   double area() const { return area_; }  ///< of the whole input; 1 where it has none
   /// The root of what the change adds to the mean square over the whole input; not below 0.
   float cost(const Change& change) const;
-  void take(const Change& change);
-  void lose() {}  ///< a part of the input has nothing that it is matched with
+  /// The collapse with this change is made.
+  void accept(const Change& change);
+  void invalidate() {}  ///< a collapse without a map is made: moments claim no bound
 
  private:
   struct Local {  // of a face of the map
@@ -48,10 +49,10 @@ class DeviationMoments {
     bool is_old = false, is_new = false;
   };
   const Moments& moments_of(std::uint32_t face, const Change& change) const;
-  void share_out(const CollapseMap& map);
+  void distribute(const CollapseMap& map);
 
   std::vector<Moments> moments_;  // by face
-  std::vector<Local> local_;      // by place in CollapseMap::faces()
+  std::vector<Local> local_;      // by index into CollapseMap::faces()
   double area_ = 0;
 };
 

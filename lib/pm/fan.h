@@ -1,4 +1,4 @@
-// The triangles around a vertex, laid out for comparing many vertices at once.
+// The triangles around a vertex, stored so that many vertices are compared at once (SIMD).
 #pragma once
 
 #include <cstdint>

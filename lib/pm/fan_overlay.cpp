@@ -16,8 +16,8 @@ constexpr float kOutward = 1e-6f;
 // area, and no texel moves that need not.
 constexpr double kGap = 1.0 / 16384;
 
-// Makes shares of an edge rise by a gap each, from 0 to 1, with the least squared change. Returns
-// whether some had to change. [Barlow et al. 1972, pool adjacent violators]
+// Moves parameters along an edge by the least sum of squares so that from 0 to 1 they rise by at
+// least a gap each. Returns whether some had to move. [Barlow et al. 1972, pool adjacent violators]
 bool space_out(std::vector<double>& along, std::vector<std::pair<double, double>>& pools) {
   const auto n = static_cast<double>(along.size());
   const double gap = std::min(kGap, 0.5 / (n + 1));
@@ -67,11 +67,11 @@ void FanOverlay::start(const FanPoint& new_apex, const glm::dvec2& origin, bool 
   rays_.clear();
 }
 
-void FanOverlay::add_ray(const FanPoint& place, std::uint32_t face) {
-  const Double4 to = make_double4(place.at), from_apex = to - apex_;
+void FanOverlay::add_ray(const FanPoint& corner, std::uint32_t face) {
+  const Double4 to = make_double4(corner.at), from_apex = to - apex_;
   rays_.push_back({to, from_apex, dot(to, to), dot(from_apex, from_apex), dot(to, apex_),
-                   dot(from_apex, apex_), place.texture, face,
-                   keep_.texture ? add_point(place.texture, place.texture) : kNone});
+                   dot(from_apex, apex_), corner.texture, face,
+                   keep_.texture ? add_point(corner.texture, corner.texture) : kNone});
 }
 
 std::uint32_t FanOverlay::add_point(const glm::dvec2& before, const glm::dvec2& after) {
@@ -92,8 +92,8 @@ FanOverlay::Corner FanOverlay::new_apex(const FanPoint& before) {
     new_apex_point_ = add_point(before.texture, apex_texture_);
     points_.back().is_new_apex = true;
   }
-  const Double4 place = make_double4(before.at);
-  return {place - apex_, place, new_apex_point_};
+  const Double4 on_old = make_double4(before.at);
+  return {on_old - apex_, on_old, new_apex_point_};
 }
 
 FanOverlay::Corner FanOverlay::on_rim(const Ray& ray) const {
@@ -108,9 +108,9 @@ void FanOverlay::add_new_apex(std::size_t ray, const FanPoint& before) {
   add_apex(ray, rays_[ray].face, new_apex(before));
 }
 
-void FanOverlay::add_lone(std::uint32_t heir, const FanPoint& after) {
-  add_apex(0, heir, old_apex(after));
-  cells_.push_back({heir, heir});
+void FanOverlay::add_vanishing_face(std::uint32_t inheriting_face, const FanPoint& after) {
+  add_apex(0, inheriting_face, old_apex(after));
+  cells_.push_back({inheriting_face, inheriting_face});
   if (keep_.moments) moments_.emplace_back();
   if (keep_.texture) textures_.emplace_back();
 }
@@ -144,7 +144,7 @@ FanOverlay::Corner FanOverlay::cross(const Ray& old_edge, const Ray& new_edge) {
   return {shift, before, add_point(glm::dvec2(0), glm::dvec2(0))};
 }
 
-// What moves along an old edge takes the nearest place on the new edge.
+// A crossing that is moved along its old edge goes to the nearest point of its new edge.
 //
 // Along old edge i the crossings with new edges i + 1 ... middle come ever nearer to the old apex;
 // along new edge j those with old edges 1 ... j - 1 go ever farther from the new apex.
@@ -178,7 +178,7 @@ void FanOverlay::order_crossings(std::size_t middle, const RayAt& ray) {
 
 // The points of a side's crossings, which were added as the last ones, row by row.
 template <typename RayAt>
-void FanOverlay::place_crossings(std::size_t middle, const RayAt& ray) {
+void FanOverlay::set_crossing_points(std::size_t middle, const RayAt& ray) {
   order_crossings(middle, ray);
   std::size_t k = 0;
   for (std::size_t i = 1; i < middle; ++i)
@@ -213,7 +213,7 @@ void FanOverlay::add_side(std::size_t first, bool is_forward, std::size_t middle
     }
     std::swap(row_, next_row_);
   }
-  if (keep_.texture) place_crossings(middle, ray);
+  if (keep_.texture) set_crossing_points(middle, ray);
   is_mirrored_ = is_backward_;
 }
 

@@ -1,4 +1,4 @@
-// The overlay of two fans of triangles over one polygon, with other apexes, as cells.
+// The overlay of two fans of triangles over one polygon, whose apexes differ, as overlay cells.
 #pragma once
 
 #include <cstdint>
@@ -9,8 +9,9 @@
 
 namespace viewcell {
 
-/// The old fan's apex is the origin. Each corner of a cell has a point on the old and one on the
-/// new surface.
+/// A fan is the triangles from one apex to the edges of a polygon; a ray goes from the apex to a
+/// corner of the polygon. The old fan's apex is the origin. Each corner of a cell has a point on
+/// the old and one on the new surface.
 ///
 /// In the texture corners keep their order along each edge and some distance from each other, so
 /// that no cell folds or vanishes where the faces do not. Differs from [Chen06 3.2.2], where points
@@ -30,30 +31,31 @@ class FanOverlay {
   /// A new pair of fans; origin: the old apex' texture coordinates; is_backward: rays come against
   /// the winding of the faces.
   void start(const FanPoint& new_apex, const glm::dvec2& origin = {0, 0}, bool is_backward = false);
-  /// The next place of the polygon, and the number of the faces from there on.
-  void add_ray(const FanPoint& place, std::uint32_t face);
-  /// The place of ray i again, after a whole turn.
+  /// The next corner of the polygon, and the number of the faces from there to the next.
+  void add_ray(const FanPoint& corner, std::uint32_t face);
+  /// The corner of ray i again, after a whole turn.
   void repeat_ray(std::size_t i) {
     const Ray ray = rays_[i];
     rays_.push_back(ray);
   }
-  /// The cell around the old apex: its place on the new surface is `after`, in the new face between
-  /// ray and ray + 1.
+  /// The cell around the old apex, whose point on the new surface is `after`, in the new face
+  /// between ray and ray + 1.
   void add_old_apex(std::size_t ray, const FanPoint& after);
-  /// The cell around the new apex, whose place on the old surface is `before`.
+  /// The cell around the new apex, whose point on the old surface is `before`.
   void add_new_apex(std::size_t ray, const FanPoint& before);
-  /// The cells on one side, from the new apex to the old one. The polygon's places are counted from
-  /// `first`, forwards or backwards. Old edges i = 1 ... middle make rows of corners with new edges
-  /// j > i; before the rows is the new apex, beyond the middle the old one. Old face i lies between
-  /// rows i and i + 1, new face j between columns j and j + 1.
+  /// The cells on one side, from the new apex to the old one. The polygon's corners are counted
+  /// from `first`, forwards or backwards. Old edges i = 1 ... middle make rows of corners with new
+  /// edges j > i; before the rows is the new apex, beyond the middle the old one. Old face i lies
+  /// between rows i and i + 1, new face j between columns j and j + 1.
   void add_side(std::size_t first, bool is_forward, std::size_t middle, const FanPoint& before,
                 const FanPoint& after);
-  /// The face between rays 0 and 1 vanishes: its apex goes to `after`, on the edge that is left,
-  /// and `heir` takes it, itself unchanged.
-  void add_lone(std::uint32_t heir, const FanPoint& after);
+  /// The face between rays 0 and 1, alone in its sector, vanishes: its apex goes to `after`, on the
+  /// edge that is left, so its surface is mapped onto `inheriting_face`, which itself stays as it
+  /// is.
+  void add_vanishing_face(std::uint32_t inheriting_face, const FanPoint& after);
 
   const std::vector<MapCell>& cells() const { return cells_; }
-  /// Beside the cells, if asked for. Of the unchanged heir of a lone face all corners are 0.
+  /// Beside the cells, if asked for. Of an inheriting face's own, unchanged part all corners are 0.
   const std::vector<CellMoments>& moments() const { return moments_; }
   const std::vector<CellCorners>& textures() const { return textures_; }
   const std::vector<TexturePoint>& texture_points() const { return points_; }
@@ -90,7 +92,7 @@ class FanOverlay {
   template <typename RayAt>
   void order_crossings(std::size_t middle, const RayAt& ray);
   template <typename RayAt>
-  void place_crossings(std::size_t middle, const RayAt& ray);
+  void set_crossing_points(std::size_t middle, const RayAt& ray);
   void add_apex(std::size_t ray, std::uint32_t new_face, const Corner& apex);
   void add_cell(std::uint32_t old_face, std::uint32_t new_face, const Around& around);
   void add_moments(const Around& around);

@@ -116,7 +116,7 @@ LindstromTurkMetric::LindstromTurkMetric(CollapseMesh& mesh, std::span<glm::vec3
       options_(options),
       on_boundary_(positions.size()),
       stars_(positions.size()),
-      is_fresh_(positions.size(), false) {
+      is_current_(positions.size(), false) {
   const double angle = glm::radians(options.least_angle_deg);
   cosine2_ = std::cos(angle) * std::cos(angle);
   sine2_ = std::sin(angle) * std::sin(angle);
@@ -133,8 +133,8 @@ void LindstromTurkMetric::gather_spokes(std::uint32_t u) {
 }
 
 const LindstromTurkMetric::Star& LindstromTurkMetric::star(std::uint32_t v) {
-  if (is_fresh_[v]) return stars_[v];
-  is_fresh_[v] = true;
+  if (is_current_[v]) return stars_[v];
+  is_current_[v] = true;
   Star sum;
   mesh_.for_each_triangle(v, [&](std::uint32_t a, std::uint32_t b) {
     sum.add(glm::cross(between(v, a), between(v, b)), 1);
@@ -242,9 +242,9 @@ const LindstromTurkMetric::Evaluated& LindstromTurkMetric::evaluate(std::uint32_
   return last_;
 }
 
-float LindstromTurkMetric::cost_at(std::uint32_t u, std::uint32_t v, const glm::vec3& place) {
+float LindstromTurkMetric::cost_at(std::uint32_t u, std::uint32_t v, const glm::vec3& position) {
   if (u > v) std::swap(u, v);
-  return cost_of(sum_up(u, v), glm::dvec3(place) - glm::dvec3(positions_[u]));
+  return cost_of(sum_up(u, v), glm::dvec3(position) - glm::dvec3(positions_[u]));
 }
 
 }  // namespace viewcell

@@ -30,16 +30,16 @@ class LindstromTurkMetric {
                       const LindstromTurkOptions& options = {});
 
   float cost(std::uint32_t u, std::uint32_t v) { return evaluate(u, v).cost; }
-  float cost_at(std::uint32_t u, std::uint32_t v, const glm::vec3& place);
-  glm::vec3 place(std::uint32_t u, std::uint32_t v) { return evaluate(u, v).place; }
+  float cost_at(std::uint32_t u, std::uint32_t v, const glm::vec3& position);
+  glm::vec3 optimal_position(std::uint32_t u, std::uint32_t v) { return evaluate(u, v).position; }
   bool allows(const CollapseMesh&, std::uint32_t, std::uint32_t) const { return true; }
-  void collapsed(std::uint32_t u, std::uint32_t v, const glm::vec3& place) {
+  void collapsed(std::uint32_t u, std::uint32_t v, const glm::vec3& position) {
     on_boundary_[v] = on_boundary_[u] || on_boundary_[v];
-    positions_[v] = place;
+    positions_[v] = position;
     spokes_of_ = last_.u = kNone;
-    is_fresh_[v] = false;
+    is_current_[v] = false;
     mesh_.for_each_triangle(
-        v, [&](std::uint32_t a, std::uint32_t b) { is_fresh_[a] = is_fresh_[b] = false; });
+        v, [&](std::uint32_t a, std::uint32_t b) { is_current_[a] = is_current_[b] = false; });
   }
   void fetch(std::uint32_t v) const {
     __builtin_prefetch(&positions_[v]);
@@ -84,7 +84,7 @@ class LindstromTurkMetric {
   struct Evaluated {
     std::uint32_t u = kNone, v = kNone;
     float cost = 0;
-    glm::vec3 place{0};
+    glm::vec3 position{0};
   };
   const Evaluated& evaluate(std::uint32_t u, std::uint32_t v);
   const Star& star(std::uint32_t v);
@@ -104,8 +104,8 @@ class LindstromTurkMetric {
   LindstromTurkOptions options_;
   double cosine2_, sine2_;  // of the least angle, squared
   std::vector<bool> on_boundary_;
-  LargeVector<Star> stars_;     // by vertex
-  std::vector<bool> is_fresh_;  // its star is that of the mesh as it is
+  LargeVector<Star> stars_;       // by vertex
+  std::vector<bool> is_current_;  // its entry in stars_ is up to date
   std::uint32_t spokes_of_ = kNone;
   std::vector<Spoke> spokes_;  // its triangles
   Evaluated last_;

@@ -34,23 +34,23 @@ float MappingMetric::add_up() {
 
 float MappingMetric::cost_at_least(std::uint32_t u, std::uint32_t v) {
   if (!is_bound()) return 0;
-  if (!map_.place(u, v)) return std::numeric_limits<float>::infinity();
+  if (!map_.locate(u, v)) return std::numeric_limits<float>::infinity();
   return boxes_.least_reach(map_);
 }
 
 float MappingMetric::cost(std::uint32_t u, std::uint32_t v) {
-  return map_.lay(u, v) ? add_up() : std::numeric_limits<float>::infinity();
+  return map_.build(u, v) ? add_up() : std::numeric_limits<float>::infinity();
 }
 
 bool MappingMetric::allows(const CollapseMesh&, std::uint32_t u, std::uint32_t v) {
-  if (!map_.lay(u, v)) return false;
+  if (!map_.build(u, v)) return false;
   add_up();
   return true;
 }
 
 void MappingMetric::collapsed(std::uint32_t, std::uint32_t) {
-  if (is_bound()) boxes_.take(boxes_change_);
-  if (options_.total && options_.measure == Measure::mean) moments_.take(moments_change_);
+  if (is_bound()) boxes_.accept(boxes_change_);
+  if (options_.total && options_.measure == Measure::mean) moments_.accept(moments_change_);
   map_.forget();
 }
 

@@ -6,7 +6,7 @@
 #include <span>
 #include <utility>
 
-#include "pm/collapse_look.h"
+#include "pm/collapse_trial.h"
 #include "pm/lindstrom_turk.h"
 
 namespace viewcell {
@@ -18,18 +18,19 @@ enum class Measure { max, mean };
 
 struct MappingOptions {
   Matching matching = Matching::nearest;  ///< texture: APS [Cohen 1998]; nearest: [Chen06 4]
-  /// true: distance to the input, by boxes of deviations that faces hand on [Cohen 1998 4.3];
-  /// false: distance to the mesh before the collapse.
+  /// true: distance to the input, by boxes of deviations, passed from face to face [Cohen
+  /// 1998 4.3]; false: distance to the mesh before the collapse.
   bool total = true;
   Measure measure = Measure::max;
 };
 
 /// Half-edge collapses. With Measure::max cost(u, v) is the largest distance of matched points over
 /// the faces that change: with `total` a bound on the distance of every point there from the input
-/// and back, for both surfaces are covered by the map.
+/// and back, for the map covers both surfaces.
 /// With Measure::mean it is the root of what the collapse adds to the mean squared distance over
-/// the surface (`total`: from the input): faces hand on area, mean and mean square of their points'
-/// deviations, taken to be independent of the next shift within a face.
+/// the surface (`total`: from the input): area, mean and mean square of the points' deviations are
+/// passed from the old faces to the new ones; within a face the deviations are assumed to be
+/// independent of the next collapse's shift.
 /// Follows: [Chen06 4.2.1], [Cohen 1998].
 class MappingMetric {
  public:
@@ -62,7 +63,7 @@ class MappingMetric {
 };
 
 /// Full-edge collapses in the order of what they would do to the distance from the input (total,
-/// Matching::nearest), each into the place that LindstromTurkMetric finds. Needs no texture
+/// Matching::nearest), each into the position that LindstromTurkMetric finds. Needs no texture
 /// coordinates. Deviations: DeviationBoxes for Measure::max, DeviationMoments for Measure::mean.
 template <typename Deviations>
 class MappingFullMetric {
@@ -73,30 +74,34 @@ class MappingFullMetric {
   MappingFullMetric(CollapseMesh& mesh, const WedgeTable& wedges, std::span<glm::vec3> positions,
                     std::span<const glm::vec2> texcoords, Deviations deviations,
                     const LindstromTurkOptions& options = {})
-      : places_(mesh, positions, options),
-        look_(mesh, wedges, positions, std::move(deviations), texcoords) {}
+      : positioner_(mesh, positions, options),
+        trial_(mesh, wedges, positions, std::move(deviations), texcoords) {}
 
-  float cost(std::uint32_t u, std::uint32_t v) { return cost_at(u, v, places_.place(u, v)); }
-  float cost_at(std::uint32_t u, std::uint32_t v, const glm::vec3& place) {
-    return look_.look(u, v, place);
+  float cost(std::uint32_t u, std::uint32_t v) {
+    return cost_at(u, v, positioner_.optimal_position(u, v));
   }
-  glm::vec3 place(std::uint32_t u, std::uint32_t v) { return places_.place(u, v); }
-  bool allows(const CollapseMesh&, std::uint32_t u, std::uint32_t v, const glm::vec3& place) {
-    return cost_at(u, v, place) < std::numeric_limits<float>::infinity();
+  float cost_at(std::uint32_t u, std::uint32_t v, const glm::vec3& position) {
+    return trial_.measure(u, v, position);
   }
-  void collapsed(std::uint32_t u, std::uint32_t v, const glm::vec3& place) {
-    places_.collapsed(u, v, place);
-    look_.take();
+  glm::vec3 optimal_position(std::uint32_t u, std::uint32_t v) {
+    return positioner_.optimal_position(u, v);
+  }
+  bool allows(const CollapseMesh&, std::uint32_t u, std::uint32_t v, const glm::vec3& position) {
+    return cost_at(u, v, position) < std::numeric_limits<float>::infinity();
+  }
+  void collapsed(std::uint32_t u, std::uint32_t v, const glm::vec3& position) {
+    positioner_.collapsed(u, v, position);
+    trial_.accept();
   }
   /// As MappingMetric::bound().
   float bound() const {
-    if constexpr (requires { look_.deviations().bound(); }) return look_.deviations().bound();
+    if constexpr (requires { trial_.deviations().bound(); }) return trial_.deviations().bound();
     return -1;
   }
 
  private:
-  LindstromTurkMetric places_;
-  CollapseLook<Deviations> look_;
+  LindstromTurkMetric positioner_;
+  CollapseTrial<Deviations> trial_;
 };
 
 }  // namespace viewcell

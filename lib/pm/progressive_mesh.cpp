@@ -38,7 +38,7 @@ float ProgressiveMesh::error() const {
   return level_ < n_splits() ? record_.splits[level_].error : 0;
 }
 
-// The parent as before and as after the collapse change places with the record. A wedge of the
+// The parent as before and as after the collapse are swapped with the record. A wedge of the
 // parent in several pairs was stashed as they follow each other, so splits go against their order.
 void ProgressiveMesh::swap_stash(const VertexSplit& split, std::size_t first_pair, bool is_split) {
   if (!record_.is_full_edge()) return;

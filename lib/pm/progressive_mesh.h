@@ -38,7 +38,7 @@ struct ProgressiveRecord {
   std::vector<VertexSplit> splits;  ///< coarse to fine
   std::vector<std::uint32_t> born;  ///< faces
   std::vector<std::uint32_t> moved;    ///< corners, 3 * face + k
-  std::vector<std::uint8_t> moved_by;  ///< of each moved corner: place of its pair in the split's
+  std::vector<std::uint8_t> moved_by;  ///< of each moved corner: index of its pair in the split's
   struct WedgePair {
     std::uint32_t child, parent;
   };
@@ -65,7 +65,7 @@ class ProgressiveMesh {
   std::size_t n_faces() const { return n_faces_; }
   std::size_t n_base_faces() const { return n_base_faces_; }
   std::size_t n_splits() const { return record_.splits.size(); }
-  /// Place in the record's pairs of those of split level(), the next that refine() makes.
+  /// Index into the record's pairs of the first of split level(), the next that refine() makes.
   std::size_t first_pair() const { return at_pair_; }
   bool has_face(std::size_t face) const { return is_alive_[face]; }
   /// Splits made so far: 0 at the base, n_splits() at the input.

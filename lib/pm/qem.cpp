@@ -39,7 +39,7 @@ std::vector<EdgeUse> find_boundary_edges(std::span<const Triangle> triangles, st
   return boundary;
 }
 
-// Half the cross product of two sides; at(v): the place of vertex v.
+// Half the cross product of two sides; at(v): the position of vertex v.
 template <typename At>
 glm::dvec3 area_vector(const At& at, const Triangle& t) {
   return 0.5 * glm::cross(at(t[1]) - at(t[0]), at(t[2]) - at(t[0]));

@@ -89,17 +89,17 @@ class QemFullMetric {
     const Quadric sum = sum_of(u, v);
     return scale_.cost(sum.value(least(sum, u, v)), sum.weight);
   }
-  float cost_at(std::uint32_t u, std::uint32_t v, const glm::vec3& place) const {
+  float cost_at(std::uint32_t u, std::uint32_t v, const glm::vec3& position) const {
     const Quadric sum = sum_of(u, v);
-    return scale_.cost(sum.value(glm::dvec3(place) - centre_), sum.weight);
+    return scale_.cost(sum.value(glm::dvec3(position) - centre_), sum.weight);
   }
-  glm::vec3 place(std::uint32_t u, std::uint32_t v) const {
+  glm::vec3 optimal_position(std::uint32_t u, std::uint32_t v) const {
     return glm::vec3(centre_ + least(sum_of(u, v), u, v));
   }
   bool allows(const CollapseMesh&, std::uint32_t, std::uint32_t) const { return true; }
-  void collapsed(std::uint32_t u, std::uint32_t v, const glm::vec3& place) {
+  void collapsed(std::uint32_t u, std::uint32_t v, const glm::vec3& position) {
     quadrics_[v].add(quadrics_[u]);
-    positions_[v] = place;
+    positions_[v] = position;
   }
 
  private:

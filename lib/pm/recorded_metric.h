@@ -4,14 +4,14 @@
 #include <cmath>
 
 #include "mesh/closest_on_segment.h"
-#include "pm/collapse_look.h"
 #include "pm/collapse_loop.h"
+#include "pm/collapse_trial.h"
 #include "pm/recorder.h"
 
 namespace viewcell {
 
-/// The metric asked for, held to the boundaries of texture charts and whatever else is asked of
-/// collapses, with every one recorded. Keeps references.
+/// The metric asked for, restricted to collapses that keep to the boundaries of texture charts and
+/// meet the other conditions; every collapse is recorded. Keeps references.
 template <typename Metric>
 struct RecordedMetric {
   const CollapseMesh& mesh;
@@ -22,22 +22,22 @@ struct RecordedMetric {
   bool refuse_folds;   ///< in the texture
   ChartGuard* charts;  ///< to keep them apart, or none
   /// Where an edge may go in a full-edge collapse: nowhere, to its end v (from inside a chart to
-  /// its border, from a border to where borders meet), to a place on itself (along a border),
+  /// its border, from a border to where borders meet), to a point on itself (along a border),
   /// anywhere.
   enum class Way { none, to_end, along, free };
-  glm::vec3 last_place{0};
+  glm::vec3 last_position{0};
   Way last_way = Way::free;
 
-  static constexpr bool kPlaces = requires(Metric m) { m.place(0u, 0u); };
+  static constexpr bool kHasPlacement = requires(Metric m) { m.optimal_position(0u, 0u); };
   static constexpr int kReach = [] {
     if constexpr (requires { Metric::kReach; }) return Metric::kReach;
     return 1;
   }();
 
   float cost(std::uint32_t u, std::uint32_t v) {
-    if constexpr (requires { metric.cost_at(u, v, last_place); })
+    if constexpr (requires { metric.cost_at(u, v, last_position); })
       if (const Way way = find_way(u, v); way == Way::to_end || way == Way::along)
-        return metric.cost_at(u, v, place(u, v));
+        return metric.cost_at(u, v, optimal_position(u, v));
     return metric.cost(u, v);
   }
   void fetch(std::uint32_t v) const requires requires(Metric m) { m.fetch(v); }
@@ -46,61 +46,61 @@ struct RecordedMetric {
     m.cost_at_least(u, v);
   }
   { return metric.cost_at_least(u, v); }
-  Way find_way(std::uint32_t u, std::uint32_t v) requires kPlaces {
+  Way find_way(std::uint32_t u, std::uint32_t v) requires kHasPlacement {
     if (recorder.texcoords().empty()) return Way::free;
     if (!recorder.match(mesh, u, v)) return Way::none;
     if (!recorder.table().match_both(mesh, v)) return Way::to_end;
     return recorder.table().texture_pairs().size() < 2 ? Way::free : Way::along;
   }
-  bool may_collapse(std::uint32_t u, std::uint32_t v) requires kPlaces {
+  bool may_collapse(std::uint32_t u, std::uint32_t v) requires kHasPlacement {
     const Way way = find_way(u, v);
     return way == Way::to_end || (way != Way::none && u < v);
   }
-  bool stays() const requires kPlaces { return last_way == Way::to_end; }
-  /// Whatever the metric knows of charts.
-  glm::vec3 place(std::uint32_t u, std::uint32_t v) requires kPlaces {
+  bool stays() const requires kHasPlacement { return last_way == Way::to_end; }
+  /// The metric's, restricted to where charts let the edge go.
+  glm::vec3 optimal_position(std::uint32_t u, std::uint32_t v) requires kHasPlacement {
     last_way = find_way(u, v);
-    if (last_way == Way::to_end) return last_place = mesh.position(v);
-    last_place = metric.place(u, v);
-    if (last_way != Way::along) return last_place;
+    if (last_way == Way::to_end) return last_position = mesh.position(v);
+    last_position = metric.optimal_position(u, v);
+    if (last_way != Way::along) return last_position;
     const glm::dvec3 a(mesh.position(u)), b(mesh.position(v));
-    const double t = closest_on_segment(glm::dvec3(last_place), a, b);
-    return last_place = glm::vec3(glm::mix(a, b, t));
+    const double t = closest_on_segment(glm::dvec3(last_position), a, b);
+    return last_position = glm::vec3(glm::mix(a, b, t));
   }
   Refusal allows(const CollapseMesh&, std::uint32_t u, std::uint32_t v) {
     if (!recorder.match(mesh, u, v)) return Refusal::chart;
-    if constexpr (kPlaces)
+    if constexpr (kHasPlacement)
       if (!stays()) recorder.table().match_both(mesh, v);
-    if (kPlaces && is_astray(u, v)) return Refusal::metric;
+    if (kHasPlacement && is_far_from_stars(u, v)) return Refusal::metric;
     merge(u, v);
     if (refuse_folds && recorder.folds(mesh, u, v)) return Refusal::fold;
     if (charts && recorder.overlaps(mesh, u, v, *charts)) return Refusal::overlap;
     const Refusal refusal = metric_allows(u, v);
     if (refusal != Refusal::none || !guard) return refusal;
-    const float reach = kPlaces ? guard->look(u, v, last_place) : guard->look(u, v);
+    const float reach = kHasPlacement ? guard->measure(u, v, last_position) : guard->measure(u, v);
     return reach <= error_bound ? Refusal::none : Refusal::bound;
   }
-  /// Whether the place is off the box around both stars by more than a quarter of its diagonal:
-  /// what is nearly flat or nearly balanced may be least far away from the surface.
-  bool is_astray(std::uint32_t u, std::uint32_t v) const {
+  /// Whether the position lies outside the box around both stars by more than a quarter of the
+  /// box's diagonal: the objective of a nearly flat surface may have its minimum far from it.
+  bool is_far_from_stars(std::uint32_t u, std::uint32_t v) const {
     Box box;
     for (const std::uint32_t w : {u, v})
       mesh.for_each_triangle(w, [&](std::uint32_t a, std::uint32_t b) {
         box.add(mesh.position(a)), box.add(mesh.position(b));
       });
     const glm::dvec3 off =
-        glm::max(box.lo - glm::dvec3(last_place), glm::dvec3(last_place) - box.hi);
+        glm::max(box.lo - glm::dvec3(last_position), glm::dvec3(last_position) - box.hi);
     return std::max({off.x, off.y, off.z}) > 0.25 * glm::length(box.size());
   }
   void merge(std::uint32_t u, std::uint32_t v) {
     if constexpr (requires { metric.texcoord(); })
       if (last_way == Way::free && metric.texcoord()) return recorder.merge(*metric.texcoord());
-    if (kPlaces || refuse_folds || charts)
-      recorder.merge(mesh, u, v, kPlaces ? last_place : glm::vec3(0));
+    if (kHasPlacement || refuse_folds || charts)
+      recorder.merge(mesh, u, v, kHasPlacement ? last_position : glm::vec3(0));
   }
   Refusal metric_allows(std::uint32_t u, std::uint32_t v) {
-    if constexpr (requires { metric.allows(mesh, u, v, last_place); })
-      return as_refusal(metric.allows(mesh, u, v, last_place));
+    if constexpr (requires { metric.allows(mesh, u, v, last_position); })
+      return as_refusal(metric.allows(mesh, u, v, last_position));
     else
       return as_refusal(metric.allows(mesh, u, v));
   }
@@ -115,11 +115,11 @@ struct RecordedMetric {
     if constexpr (requires { metric.traced(u, v, trace); }) metric.traced(u, v, trace);
     recorder.traced(u, v, trace);
   }
-  template <typename... Place>
-  void collapsed(std::uint32_t u, std::uint32_t v, const Place&... place) {
-    metric.collapsed(u, v, place...);
-    if (guard) guard->take();
-    if (charts) charts->take();
+  template <typename... Position>
+  void collapsed(std::uint32_t u, std::uint32_t v, const Position&... position) {
+    metric.collapsed(u, v, position...);
+    if (guard) guard->accept();
+    if (charts) charts->accept();
   }
 };
 

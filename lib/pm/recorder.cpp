@@ -46,11 +46,11 @@ Recorder::Recorder(const WedgeMesh& mesh, const TriMesh& input, float scale, boo
 }
 
 void Recorder::merge(const CollapseMesh& mesh, std::uint32_t u, std::uint32_t v,
-                     const glm::vec3& place) {
+                     const glm::vec3& position) {
   merged_.clear();
   if (texcoords_.empty()) return;
   const double along = is_full_
-                           ? closest_on_segment(glm::dvec3(place), glm::dvec3(mesh.position(v)),
+                           ? closest_on_segment(glm::dvec3(position), glm::dvec3(mesh.position(v)),
                                                 glm::dvec3(mesh.position(u)))
                            : 0;
   for (const auto& [child, parent] : table_.pairs())
@@ -71,19 +71,19 @@ void Recorder::made(std::uint32_t u, std::uint32_t v, float cost, float error,
   splits_.push_back({u, v, size32(trace.died), size32(trace.moved), size32(matched_), cost, error});
   born_.insert(born_.end(), trace.died.begin(), trace.died.end());
   moved_.insert(moved_.end(), trace.moved.begin(), trace.moved.end());
-  for (const std::uint32_t wedge : moved_from_) moved_by_.push_back(place_of(wedge));
+  for (const std::uint32_t wedge : moved_from_) moved_by_.push_back(pair_index(wedge));
   for (const auto& [from, to] : matched_) pairs_.push_back({from, to});
   if (!is_full_) return;
   if (!texcoords_.empty()) move_texcoords();
   has_moved_[v] = true;
 }
 
-std::uint8_t Recorder::place_of(std::uint32_t wedge) const {
+std::uint8_t Recorder::pair_index(std::uint32_t wedge) const {
   const auto found = std::find_if(matched_.begin(), matched_.end(),
                                   [&](const auto& pair) { return pair.from == wedge; });
-  const auto place = found - matched_.begin();
-  VIEWCELL_CHECK(place < 256, place);
-  return static_cast<std::uint8_t>(place);
+  const auto index = found - matched_.begin();
+  VIEWCELL_CHECK(index < 256, index);
+  return static_cast<std::uint8_t>(index);
 }
 
 // A position in the input's units, to the bit where it is the input's.
@@ -117,9 +117,9 @@ void Recorder::add_attributes(ProgressiveRecord& r) const {
   r.faces.resize(mesh_.faces.size());
   if (!input_.materials.empty()) to.materials.resize(mesh_.faces.size());
   for (std::uint32_t f = 0; f < mesh_.faces.size(); ++f) {
-    const std::uint32_t place = mesh_.face_place[f];
-    r.faces[place] = {table_.at(3 * f), table_.at(3 * f + 1), table_.at(3 * f + 2)};
-    if (!input_.materials.empty()) to.materials[place] = input_.materials[mesh_.face_source[f]];
+    const std::uint32_t index = mesh_.face_index[f];
+    r.faces[index] = {table_.at(3 * f), table_.at(3 * f + 1), table_.at(3 * f + 2)};
+    if (!input_.materials.empty()) to.materials[index] = input_.materials[mesh_.face_source[f]];
   }
 }
 
@@ -129,8 +129,8 @@ void Recorder::renumber() {
     split.child = mesh_.vertex_source[split.child];
     split.parent = mesh_.vertex_source[split.parent];
   }
-  for (std::uint32_t& face : born_) face = mesh_.face_place[face];
-  for (std::uint32_t& c : moved_) c = 3 * mesh_.face_place[c / 3] + c % 3;
+  for (std::uint32_t& face : born_) face = mesh_.face_index[face];
+  for (std::uint32_t& c : moved_) c = 3 * mesh_.face_index[c / 3] + c % 3;
 }
 
 void Recorder::add_splits(ProgressiveRecord& r) {

@@ -10,8 +10,8 @@
 
 namespace viewcell {
 
-/// Keeps what every collapse did, in the numbers of the input. Told of each collapse in turn:
-/// match(), traced(), made().
+/// Keeps what every collapse did, in the numbers of the input. To be called for each collapse in
+/// this order: match(), traced(), made().
 class Recorder {
  public:
   /// Keeps references. mesh.positions are the input's times `scale`, in the order of mesh; a
@@ -22,11 +22,11 @@ class Recorder {
   bool match(const CollapseMesh& mesh, std::uint32_t u, std::uint32_t v) {
     return table_.match(mesh, u, v);
   }
-  /// After match(): the texture coordinates that its pairs get. place: where both go, or v for a
-  /// half-edge collapse. A full-edge collapse takes them as far towards the child's as the place is
-  /// along the edge.
-  void merge(const CollapseMesh& mesh, std::uint32_t u, std::uint32_t v, const glm::vec3& place);
-  /// The same for the only texture vertices, by whoever knows better.
+  /// After match(): the texture coordinates that its pairs get. position: where both go; unused for
+  /// a half-edge collapse, which keeps the parent's. A full-edge collapse interpolates between the
+  /// parent's and the child's by where the position is along the edge.
+  void merge(const CollapseMesh& mesh, std::uint32_t u, std::uint32_t v, const glm::vec3& position);
+  /// The same for a single pair of texture vertices whose coordinates the metric has found.
   void merge(const glm::vec2& texcoord) { merged_.assign(table_.pairs().size(), texcoord); }
   /// Whether the collapse merged last turns a triangle over in the texture.
   bool folds(const CollapseMesh& mesh, std::uint32_t u, std::uint32_t v) const {
@@ -49,7 +49,7 @@ class Recorder {
   const std::vector<glm::vec2>& texcoords() const { return texcoords_; }
 
  private:
-  std::uint8_t place_of(std::uint32_t wedge) const;
+  std::uint8_t pair_index(std::uint32_t wedge) const;
   glm::vec3 unscaled(std::uint32_t v, const glm::vec3& p) const;
   void move_texcoords();
   void add_attributes(ProgressiveRecord& record) const;

@@ -15,7 +15,7 @@ bool turns_over_texture(const CollapseMesh& mesh, const WedgeTable& wedges,
                         std::span<const glm::vec2> texcoords, std::uint32_t u, std::uint32_t v,
                         std::span<const glm::vec2> merged, bool full) {
   bool turns = false;
-  const auto look = [&](std::uint32_t moved, std::uint32_t other, auto side) {
+  const auto check_star = [&](std::uint32_t moved, std::uint32_t other, auto side) {
     mesh.for_each_corner(moved, [&](std::uint32_t c) {
       const std::uint32_t t = 3 * (c / 3), a = t + (c + 1 - t) % 3, b = t + (c + 2 - t) % 3;
       if (turns || mesh.vertex_at(a) == other || mesh.vertex_at(b) == other) return;
@@ -28,8 +28,8 @@ bool turns_over_texture(const CollapseMesh& mesh, const WedgeTable& wedges,
       }
     });
   };
-  look(u, v, &WedgeTable::Pair::from);
-  if (full) look(v, u, &WedgeTable::Pair::to);
+  check_star(u, v, &WedgeTable::Pair::from);
+  if (full) check_star(v, u, &WedgeTable::Pair::to);
   return turns;
 }
 

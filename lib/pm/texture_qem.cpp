@@ -47,10 +47,10 @@ void TextureQuadrics::merge(std::uint32_t u, std::uint32_t v, const WedgeTable& 
   boundaries[v].add(boundaries[u]);
 }
 
-float TextureQuadrics::cost_in_place(const CollapseMesh& mesh, const WedgeTable& wedges,
-                                     std::uint32_t u, std::uint32_t v) const {
-  const glm::dvec3 place = glm::dvec3(positions[v]) - centre;
-  double value = boundaries[u].value(place) + boundaries[v].value(place);
+float TextureQuadrics::cost_at_parent(const CollapseMesh& mesh, const WedgeTable& wedges,
+                                      std::uint32_t u, std::uint32_t v) const {
+  const glm::dvec3 position = glm::dvec3(positions[v]) - centre;
+  double value = boundaries[u].value(position) + boundaries[v].value(position);
   double weight = boundaries[u].weight + boundaries[v].weight;
   const auto add_wedge = [&](std::uint32_t of, std::uint32_t at) {
     const Quadric5& quadric = of_wedges[wedges.texture_vertex(of)];
@@ -74,7 +74,7 @@ float TextureQuadrics::cost_in_place(const CollapseMesh& mesh, const WedgeTable&
 
 float TextureQemMetric::cost(std::uint32_t u, std::uint32_t v) {
   if (!wedges_.match(mesh_, u, v)) return std::numeric_limits<float>::infinity();
-  return quadrics_.cost_in_place(mesh_, wedges_, u, v);
+  return quadrics_.cost_at_parent(mesh_, wedges_, u, v);
 }
 
 const TextureQemFullMetric::Evaluated& TextureQemFullMetric::evaluate(std::uint32_t u,
@@ -82,7 +82,7 @@ const TextureQemFullMetric::Evaluated& TextureQemFullMetric::evaluate(std::uint3
   last_ = {std::numeric_limits<float>::infinity(), positions_[v], {}};
   if (!wedges_.match(mesh_, u, v)) return last_;
   if (!wedges_.match_both(mesh_, v)) {
-    last_.cost = quadrics_.cost_in_place(mesh_, wedges_, u, v);
+    last_.cost = quadrics_.cost_at_parent(mesh_, wedges_, u, v);
     return last_;
   }
   if (u > v) {  // the same sums from either side
@@ -104,7 +104,7 @@ void TextureQemFullMetric::place_freely(std::uint32_t u, std::uint32_t v) {
   for (std::size_t i = 0; i < 5; ++i) middle[i] = 0.5 * (a[i] + b[i]);
   const Vec5 x = sum.minimiser(middle);
   last_.cost = quadrics_.cost_scale.cost(sum.value(x), sum.weight);
-  last_.place = glm::vec3(quadrics_.centre + glm::dvec3(x[0], x[1], x[2]));
+  last_.position = glm::vec3(quadrics_.centre + glm::dvec3(x[0], x[1], x[2]));
   if (quadrics_.scale > 0) last_.texcoord = glm::vec2(glm::dvec2(x[3], x[4]) / quadrics_.scale);
 }
 
@@ -136,7 +136,7 @@ void TextureQemFullMetric::place_on_edge(std::uint32_t u, std::uint32_t v) {
   const double bend = 2 * (f0 + f1 - 2 * middle), slope = f1 - f0 - bend;
   const double along = bend > 0 ? std::clamp(-slope / (2 * bend), 0.0, 1.0) : (f1 < f0 ? 1 : 0);
   last_.cost = quadrics_.cost_scale.cost(value_at(along), weight);
-  last_.place = glm::vec3(glm::mix(glm::dvec3(positions_[v]), glm::dvec3(positions_[u]), along));
+  last_.position = glm::vec3(glm::mix(glm::dvec3(positions_[v]), glm::dvec3(positions_[u]), along));
 }
 
 }  // namespace viewcell

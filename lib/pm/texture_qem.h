@@ -32,9 +32,9 @@ struct TextureQuadrics {
   TextureQuadrics(const WedgeMesh& input, std::span<const glm::vec3> positions,
                   const std::vector<glm::vec2>& texcoords, const TextureQemOptions& options);
   Vec5 point(std::uint32_t vertex, std::uint32_t wedge) const;
-  /// What u costs in v's place, for each wedge where the table has matched it last.
-  float cost_in_place(const CollapseMesh& mesh, const WedgeTable& wedges, std::uint32_t u,
-                      std::uint32_t v) const;
+  /// The cost of both vertices at v, each wedge of u at that of v that the table has matched last.
+  float cost_at_parent(const CollapseMesh& mesh, const WedgeTable& wedges, std::uint32_t u,
+                       std::uint32_t v) const;
   /// u has collapsed into v, as the table has matched it last.
   void merge(std::uint32_t u, std::uint32_t v, const WedgeTable& wedges);
 };
@@ -77,19 +77,22 @@ class TextureQemFullMetric {
         quadrics_(input, positions, texcoords, options) {}
 
   float cost(std::uint32_t u, std::uint32_t v) { return evaluate(u, v).cost; }
-  glm::vec3 place(std::uint32_t u, std::uint32_t v) { return evaluate(u, v).place; }
-  /// Of the last place(): texture coordinates for its one pair of wedges, if there is one.
+  glm::vec3 optimal_position(std::uint32_t u, std::uint32_t v) { return evaluate(u, v).position; }
+  /// Of the last optimal_position(): texture coordinates for its one pair of wedges, if there is
+  /// one.
   const std::optional<glm::vec2>& texcoord() const { return last_.texcoord; }
   bool allows(const CollapseMesh&, std::uint32_t, std::uint32_t) const { return true; }
   void traced(std::uint32_t u, std::uint32_t v, const CollapseTrace&) {
     quadrics_.merge(u, v, wedges_);
   }
-  void collapsed(std::uint32_t, std::uint32_t v, const glm::vec3& place) { positions_[v] = place; }
+  void collapsed(std::uint32_t, std::uint32_t v, const glm::vec3& position) {
+    positions_[v] = position;
+  }
 
  private:
   struct Evaluated {
     float cost = 0;
-    glm::vec3 place{0};
+    glm::vec3 position{0};
     std::optional<glm::vec2> texcoord;
   };
   const Evaluated& evaluate(std::uint32_t u, std::uint32_t v);

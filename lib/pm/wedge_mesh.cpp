@@ -125,17 +125,17 @@ void permute(Vector& values, const std::vector<std::uint32_t>& order) {
 void order_along_curve(const std::vector<std::uint32_t>& order, WedgeMesh& mesh) {
   mesh.vertex_source = order;
   permute(mesh.positions, mesh.vertex_source);
-  std::vector<std::uint32_t> place(mesh.positions.size());
-  for (std::uint32_t v = 0; v < place.size(); ++v) place[mesh.vertex_source[v]] = v;
-  for (std::uint32_t& v : mesh.wedge_vertex) v = place[v];
+  std::vector<std::uint32_t> new_index(mesh.positions.size());
+  for (std::uint32_t v = 0; v < new_index.size(); ++v) new_index[mesh.vertex_source[v]] = v;
+  for (std::uint32_t& v : mesh.wedge_vertex) v = new_index[v];
   std::vector<std::uint32_t> lowest;
   lowest.reserve(mesh.faces.size());
   for (const Triangle& f : mesh.faces)
     lowest.push_back(
         std::min({mesh.wedge_vertex[f[0]], mesh.wedge_vertex[f[1]], mesh.wedge_vertex[f[2]]}));
-  mesh.face_place = sorted_order(lowest);
-  permute(mesh.faces, mesh.face_place);
-  permute(mesh.face_source, mesh.face_place);
+  mesh.face_index = sorted_order(lowest);
+  permute(mesh.faces, mesh.face_index);
+  permute(mesh.face_source, mesh.face_index);
 }
 
 }  // namespace
@@ -171,7 +171,7 @@ WedgeMesh make_wedges(const TriMesh& mesh, bool along_curve) {
     find_texture_vertices(out);
   }
   out.vertex_source = identity(n);
-  out.face_place = identity(static_cast<std::uint32_t>(out.faces.size()));
+  out.face_index = identity(static_cast<std::uint32_t>(out.faces.size()));
   if (along_curve) order_along_curve(order, out);
   return out;
 }

@@ -1,5 +1,5 @@
 // A mesh as collapses need it when it has texture coordinates or split vertices: vertices are
-// places, wedges are what is drawn at them [Hoppe 1998].
+// positions, wedges the attributes drawn at them [Hoppe 1998].
 #pragma once
 
 #include <cstdint>
@@ -26,7 +26,7 @@ struct WedgeMesh {
   std::vector<std::uint32_t> texture_vertex;
   std::vector<Triangle> faces;             ///< three wedges each
   std::vector<std::uint32_t> face_source;  ///< face -> triangle of the file
-  std::vector<std::uint32_t> face_place;   ///< face -> its place among those that are here
+  std::vector<std::uint32_t> face_index;   ///< face -> its index in the order of the file
   std::size_t n_welded = 0;                ///< vertices of the file that are not a vertex here
   std::size_t n_dropped = 0;               ///< triangles with two corners at one position
 

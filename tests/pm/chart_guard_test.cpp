@@ -180,7 +180,7 @@ TEST(ChartGuard, RemembersWhatWasTaken) {
     EXPECT_FALSE(guarded.overlaps(4, 2));
     EXPECT_TRUE(guarded.overlaps(first + 2, first + 3));  // asked, not made
     EXPECT_FALSE(guarded.overlaps(4, 2));
-    guarded.guard.take();
+    guarded.guard.accept();
     EXPECT_FALSE(guarded.overlaps(first + 2, first + 3));
   }
   // Where the other has come down to row 8 the first may not rise.
@@ -190,7 +190,7 @@ TEST(ChartGuard, RemembersWhatWasTaken) {
     Guarded guarded(bend.mesh);
     EXPECT_FALSE(guarded.overlaps_at(4, 2, {10, 7.4f}));
     EXPECT_FALSE(guarded.overlaps(first + 2, first + 3));
-    guarded.guard.take();
+    guarded.guard.accept();
     EXPECT_TRUE(guarded.overlaps_at(4, 2, {10, 7.4f}));
     EXPECT_FALSE(guarded.overlaps(4, 2));
   }

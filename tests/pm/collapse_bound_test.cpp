@@ -1,5 +1,5 @@
 // Whether errors that are said to bound a distance do.
-#include "pm/collapse_look.h"
+#include "pm/collapse_trial.h"
 
 #include <gtest/gtest.h>
 

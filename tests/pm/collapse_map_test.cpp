@@ -22,8 +22,8 @@ TEST(CollapseMap, ALoneTriangleHasAnHeir) {
     CollapseMap map(parts.mesh, parts.table, parts.wedges.positions, {}, Matching::nearest);
     DeviationBoxes boxes(2);
     const VectorBox had{Float4{0, 0, -3, 0}, Float4{0, 0, 2, 0}};
-    boxes.take({{heir, had}});
-    ASSERT_TRUE(map.lay(0, 1));
+    boxes.accept({{heir, had}});
+    ASSERT_TRUE(map.build(0, 1));
     DeviationBoxes::Change change;
     boxes.add(map, change);
     ASSERT_EQ(change.size(), 1u);
@@ -35,7 +35,7 @@ TEST(CollapseMap, ALoneTriangleHasAnHeir) {
     EXPECT_NEAR(box.lo[0], -0.8, 1e-5);
     EXPECT_NEAR(box.lo[1], -0.4, 1e-5);
     EXPECT_NEAR(box.hi[0], 0, 1e-5);
-    boxes.take(change);
+    boxes.accept(change);
     EXPECT_GE(boxes.bound(), 3);
     EXPECT_EQ(parts.mesh.check(0, 1, 0.2f), Refusal::none);
   }
@@ -55,7 +55,7 @@ TEST(CollapseMap, MovedCellsCoverTheStar) {
     const double angle = random.uniform(0, 6.28), radius = random.uniform(0, 0.35);
     const glm::dvec3 to =
         glm::dvec3(fan.positions[0]) + radius * glm::dvec3(std::cos(angle), std::sin(angle), 0);
-    ASSERT_TRUE(map.lay_move(0, to));
+    ASSERT_TRUE(map.build_move(0, to));
     std::vector<double> covered(fan.triangles.size(), 0);
     for (std::size_t i = 0; i < map.overlay().cells().size(); ++i)
       covered[map.faces()[map.overlay().cells()[i].old_face]] += map.overlay().moments()[i].area;
@@ -79,7 +79,7 @@ TEST(CollapseMap, CellsCoverTheStar) {
     Parts parts(fan);
     CollapseMap map(parts.mesh, parts.table, parts.wedges.positions, parts.wedges.texcoords,
                     Matching::texture, {.moments = true});
-    ASSERT_TRUE(map.lay(0, v));
+    ASSERT_TRUE(map.build(0, v));
     if (parts.turns_over(0, v)) continue;
     std::vector<double> covered(fan.triangles.size(), 0);
     for (std::size_t i = 0; i < map.overlay().cells().size(); ++i)

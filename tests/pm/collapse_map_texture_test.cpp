@@ -89,7 +89,7 @@ TEST(CollapseMapTexture, TheOldApexKeepsInsideItsNewFace) {
     Fan fan(seed, false, 1);
     const std::uint32_t first = Random(seed + 9).below(fan.n);
     const std::uint32_t v = fan.rim(first);
-    if (!fan.map.lay(0, v)) continue;
+    if (!fan.map.build(0, v)) continue;
     ++n_laid;
     std::vector<std::array<Corner, 3>> faces;
     const auto corner = [&](std::uint32_t i) { return Corner{fan.at(i), fan.uv(i)}; };
@@ -116,9 +116,9 @@ TEST(CollapseMapTexture, TheFirstOfTwoFacesAsNear) {
   CollapseMap map(parts.mesh, parts.table, parts.wedges.positions, parts.wedges.texcoords,
                   Matching::nearest, {.texture = true});
   for (std::uint32_t v = 1; v < 5; ++v) {
-    ASSERT_TRUE(map.lay(0, v));
+    ASSERT_TRUE(map.build(0, v));
     std::vector<std::uint32_t> taken;
-    map.for_each_place(
+    map.for_each_location(
         [&](std::uint32_t face, const auto&) { taken.push_back(map.faces()[face]); });
     EXPECT_EQ(taken,
               std::vector<std::uint32_t>{v % 4});  // from the next corner to the one opposite
@@ -132,7 +132,7 @@ TEST(CollapseMapTexture, OpenFansGoToTheNewBorder) {
     Fan fan(seed, true, 1);
     const bool is_first = seed % 2;
     const std::uint32_t v = is_first ? 1 : fan.n, far = is_first ? fan.n : 1;
-    ASSERT_TRUE(fan.map.lay(0, v));
+    ASSERT_TRUE(fan.map.build(0, v));
     const double t = closest_on_segment(fan.at(0), fan.at(v), fan.at(far));
     n_ends += t == 0 || t == 1;
     const TexturePoint apex = fan.apex(&TexturePoint::is_old_apex);
@@ -141,7 +141,7 @@ TEST(CollapseMapTexture, OpenFansGoToTheNewBorder) {
                             glm::mix(fan.uv(v), fan.uv(far), std::clamp(t, kInside, 1 - kInside))),
               1e-6);
     // Only its ends are on the border.
-    for (std::uint32_t i = 2; i < fan.n; ++i) EXPECT_FALSE(fan.map.lay(0, i)) << i;
+    for (std::uint32_t i = 2; i < fan.n; ++i) EXPECT_FALSE(fan.map.build(0, i)) << i;
   }
   EXPECT_GT(n_ends, 5u);
 }
@@ -156,7 +156,7 @@ TEST(CollapseMapTexture, MovedApexes) {
     const auto off = [&] { return random.uniform(-0.5, 0.5); };
     const glm::dvec3 to = fan.at(0) + glm::dvec3(off(), off(), 2 * off());
     const glm::vec2 uv_to(off(), off());
-    ASSERT_TRUE(fan.map.lay_move(0, to, std::vector<WedgeMove>{{0, uv_to}}));
+    ASSERT_TRUE(fan.map.build_move(0, to, std::vector<WedgeMove>{{0, uv_to}}));
     std::vector<std::array<Corner, 3>> old_faces, new_faces;
     for (std::uint32_t i = 0; i < fan.n; ++i) {
       const Corner b{fan.at(fan.rim(i)), fan.uv(fan.rim(i))};
@@ -187,7 +187,7 @@ TEST(CollapseMapTexture, MovedApexesOfBorders) {
     const auto off = [&] { return random.uniform(-0.5, 0.5); };
     const glm::dvec3 to = fan.at(0) + glm::dvec3(off(), off(), off());
     const glm::vec2 uv_to(off(), off());
-    ASSERT_TRUE(fan.map.lay_move(0, to, std::vector<WedgeMove>{{0, uv_to}}));
+    ASSERT_TRUE(fan.map.build_move(0, to, std::vector<WedgeMove>{{0, uv_to}}));
     // The two edges of the old border; the new apex goes to the nearer, the old one to the other's.
     const std::array<std::uint32_t, 2> ends{1, fan.n};
     std::array<double, 2> s, away;
@@ -224,7 +224,7 @@ TEST(CollapseMapTexture, ALoneTriangleMoves) {
   for (std::uint32_t v = 0; v < 3; ++v) {
     const glm::vec2 uv(0.4f, 0.3f);
     const std::uint32_t wedge = parts.wedges.faces[0][v];
-    ASSERT_TRUE(map.lay_move(v, {-0.2, -0.3, 0.1}, std::vector<WedgeMove>{{wedge, uv}}));
+    ASSERT_TRUE(map.build_move(v, {-0.2, -0.3, 0.1}, std::vector<WedgeMove>{{wedge, uv}}));
     ASSERT_EQ(map.overlay().cells().size(), 1u);
     std::vector<std::uint32_t> corners;  // the cell's, which are three
     for (const std::uint32_t corner : map.overlay().textures()[0])
@@ -256,10 +256,10 @@ TEST(CollapseMapTexture, RemembersNothingOfOtherStars) {
   for (int i = 0; i < 400; ++i) {
     const Triangle& t = parts.triangles[random.below(98)];
     const std::uint32_t k = random.below(3), u = t[k], v = t[(k + 1) % 3];
-    used.place(u, t[(k + 2) % 3]);
+    used.locate(u, t[(k + 2) % 3]);
     CollapseMap fresh = make();
-    const bool is_laid = fresh.lay(u, v);
-    ASSERT_EQ(used.lay(u, v), is_laid);
+    const bool is_laid = fresh.build(u, v);
+    ASSERT_EQ(used.build(u, v), is_laid);
     if (!is_laid) continue;
     ++n_laid;
     const auto &a = used.overlay().texture_points(), &b = fresh.overlay().texture_points();

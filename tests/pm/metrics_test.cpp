@@ -40,10 +40,10 @@ TEST(QemFullMetric, PlacesWhereTheCostIsLeast) {
   for (const Triangle& t : mesh.triangles) {
     Quadric sum = quadrics[t[0]];
     sum.add(quadrics[t[1]]);
-    const glm::dvec3 place = glm::dvec3(metric.place(t[0], t[1])) - centre;
+    const glm::dvec3 place = glm::dvec3(metric.optimal_position(t[0], t[1])) - centre;
     const double least = sum.value(place);
     EXPECT_NEAR(metric.cost(t[0], t[1]), std::sqrt(least / sum.weight), 1e-5);
-    EXPECT_EQ(metric.place(t[0], t[1]), metric.place(t[1], t[0]));
+    EXPECT_EQ(metric.optimal_position(t[0], t[1]), metric.optimal_position(t[1], t[0]));
     for (int i = 0; i < 20; ++i) {
       const glm::dvec3 off(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
       EXPECT_GE(sum.value(place + 0.1 * off), least * (1 - 1e-4) - 1e-12);
@@ -55,7 +55,7 @@ TEST(QemFullMetric, PlacesWhereTheCostIsLeast) {
 TEST(QemFullMetric, FlatPlacesAreTheMiddle) {
   TriMesh grid = make_flat_grid(4);
   QemFullMetric metric(grid.positions, grid.triangles);
-  EXPECT_LT(glm::distance(metric.place(12, 13), glm::vec3(2.5f, 2, 0)), 1e-5f);
+  EXPECT_LT(glm::distance(metric.optimal_position(12, 13), glm::vec3(2.5f, 2, 0)), 1e-5f);
   EXPECT_NEAR(metric.cost(12, 13), 0, 1e-6);
 }
 
@@ -66,10 +66,10 @@ TEST(LindstromTurk, CostAndPlaceAreTheSameFromBothEnds) {
   LindstromTurkMetric metric(work, mesh.positions);
   for (const Triangle& t : mesh.triangles) {
     const float cost = metric.cost(t[0], t[1]);
-    const glm::vec3 place = metric.place(t[0], t[1]);
+    const glm::vec3 place = metric.optimal_position(t[0], t[1]);
     metric.cost(t[1], t[2]);  // another edge in between
     EXPECT_EQ(metric.cost(t[1], t[0]), cost);
-    EXPECT_EQ(metric.place(t[1], t[0]), place);
+    EXPECT_EQ(metric.optimal_position(t[1], t[0]), place);
     EXPECT_TRUE(std::isfinite(cost) && std::isfinite(glm::length(place)));
   }
 }
@@ -80,9 +80,9 @@ TEST(LindstromTurk, BoundariesAreKept) {
   CollapseMesh work(grid.positions, grid.triangles);
   LindstromTurkMetric metric(work, grid.positions);
   EXPECT_NEAR(metric.cost(2, 3), 0, 1e-4);
-  EXPECT_NEAR(metric.place(2, 3).y, 0, 1e-5);
-  EXPECT_NEAR(metric.place(2, 3).z, 0, 1e-5);
-  EXPECT_LT(glm::length(metric.place(0, 7)), 1e-4f);  // a corner stays where it is
+  EXPECT_NEAR(metric.optimal_position(2, 3).y, 0, 1e-5);
+  EXPECT_NEAR(metric.optimal_position(2, 3).z, 0, 1e-5);
+  EXPECT_LT(glm::length(metric.optimal_position(0, 7)), 1e-4f);  // a corner stays where it is
   EXPECT_NEAR(metric.cost(16, 17), 0, 1e-4);
 }
 
@@ -94,7 +94,7 @@ TEST(LindstromTurk, OneStepKeepsTheVolume) {
     CollapseMesh work(mesh.positions, mesh.triangles);
     LindstromTurkMetric metric(work, mesh.positions);
     const std::uint32_t u = mesh.triangles[k][0], v = mesh.triangles[k][1];
-    const glm::vec3 place = metric.place(u, v);
+    const glm::vec3 place = metric.optimal_position(u, v);
     work.collapse(u, v);
     mesh.positions[v] = place;
     const auto volume = [](const std::vector<glm::vec3>& p,
@@ -131,7 +131,7 @@ TEST(LindstromTurk, PlacesWhereVolumesChangeLeast) {
         total += std::pow(glm::dot(normals[i], p - points[i]), 2);
       return total;
     };
-    const glm::dvec3 place(metric.place(u, v));
+    const glm::dvec3 place(metric.optimal_position(u, v));
     for (int i = 0; i < 20; ++i) {
       const glm::dvec3 any(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
       const glm::dvec3 along = any - glm::dot(any, sum) / glm::dot(sum, sum) * sum;
@@ -158,7 +158,7 @@ TEST(LindstromTurk, CostsAreThoseOfTheMeshAsItIs) {
           EXPECT_EQ(metric.cost(u, v), fresh.cost(u, v)) << step << ": " << u << " " << v;
         }
       const auto [u, v, other] = triangles[7 * step % triangles.size()];
-      const glm::vec3 place = metric.place(u, v);
+      const glm::vec3 place = metric.optimal_position(u, v);
       if (work.check(u, v, place, -1) != Refusal::none) continue;
       ++n_collapses;
       work.collapse(u, v);
@@ -220,12 +220,12 @@ TEST(TextureQemFull, PlacesWhereTheCostIsLeast) {
   for (const Triangle& t : wedges.faces) {
     Quadric5 sum = quadrics.of_wedges[t[0]];
     sum.add(quadrics.of_wedges[t[1]]);
-    const glm::dvec3 p = glm::dvec3(metric.place(t[0], t[1])) - quadrics.centre;
+    const glm::dvec3 p = glm::dvec3(metric.optimal_position(t[0], t[1])) - quadrics.centre;
     ASSERT_TRUE(metric.texcoord());
     const glm::dvec2 uv = quadrics.scale * glm::dvec2(*metric.texcoord());
     const double least = sum.value({p.x, p.y, p.z, uv.x, uv.y});
     EXPECT_NEAR(metric.cost(t[0], t[1]), quadrics.cost_scale.cost(least, sum.weight), 1e-4);
-    EXPECT_EQ(metric.place(t[0], t[1]), metric.place(t[1], t[0]));
+    EXPECT_EQ(metric.optimal_position(t[0], t[1]), metric.optimal_position(t[1], t[0]));
     for (int i = 0; i < 20; ++i) {
       const auto off = [&] { return 0.1 * random.uniform(-1, 1); };
       EXPECT_GE(sum.value({p.x + off(), p.y + off(), p.z + off(), uv.x + off(), uv.y + off()}),
@@ -265,7 +265,7 @@ TEST(TextureQemFull, BorderPlacesAreTheLeastOfTheEdge) {
       return value;
     };
     const glm::dvec3 at_u(wedges.positions[u]), at_v(wedges.positions[v]);
-    const glm::dvec3 place(metric.place(u, v));
+    const glm::dvec3 place(metric.optimal_position(u, v));
     const double along = glm::distance(place, at_v) / glm::distance(at_u, at_v);
     EXPECT_LT(glm::distance(place, glm::mix(at_v, at_u, along)), 1e-5);
     EXPECT_FALSE(metric.texcoord());

@@ -1,4 +1,4 @@
-#include "pm/collapse_look.h"
+#include "pm/collapse_trial.h"
 
 #include <gtest/gtest.h>
 
@@ -70,7 +70,7 @@ double largest_distance(const TriMesh& from, const TriMesh& to) {
 
 // No point of either surface is farther from the other than a full-edge collapse is said to bring
 // it, inside a mesh and at its boundary; and some are nearly as far.
-TEST(CollapseLook, BoundsTheDistanceOfAFullEdge) {
+TEST(CollapseTrial, BoundsTheDistanceOfAFullEdge) {
   for (const bool is_open : {false, true}) {
     double tightest = 0, sum = 0;
     for (std::uint64_t seed = 1; seed <= 150; ++seed) {
@@ -85,13 +85,13 @@ TEST(CollapseLook, BoundsTheDistanceOfAFullEdge) {
       Parts parts(mesh);
       CollapseBound bound(parts.mesh, parts.table, parts.wedges.positions,
                           DeviationBoxes(mesh.triangles.size()));
-      const double said = bound.look(0, 1, place);
-      EXPECT_EQ(bound.look(1, 0, place), said);
+      const double said = bound.measure(0, 1, place);
+      EXPECT_EQ(bound.measure(1, 0, place), said);
       const TriMesh after = collapse_both(mesh, place);
       const double measured =
           std::max(largest_distance(mesh, after), largest_distance(after, mesh));
       EXPECT_LE(measured, said * (1 + 1e-6));
-      bound.take();
+      bound.accept();
       for (std::uint32_t f = 0; f < mesh.triangles.size(); ++f) {
         Triangle t = mesh.triangles[f];
         std::replace(t.begin(), t.end(), 0u, 1u);
@@ -107,7 +107,7 @@ TEST(CollapseLook, BoundsTheDistanceOfAFullEdge) {
 }
 
 // What is kept from before a collapse does not show in the next.
-TEST(CollapseLook, ForgetsTheMeshBefore) {
+TEST(CollapseTrial, ForgetsTheMeshBefore) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     TriMesh sphere = make_noisy_sphere(2, 0.2, seed);
     Parts parts(sphere);
@@ -117,16 +117,16 @@ TEST(CollapseLook, ForgetsTheMeshBefore) {
       std::vector<std::uint32_t> ring;
       parts.mesh.ring(u, ring);
       if (parts.mesh.check(u, ring[0], -1) != Refusal::none) continue;
-      kept.look(ring[0], u);  // the star that is about to change
-      kept.look(u, ring[0]);
-      kept.look(ring[0], u);
+      kept.measure(ring[0], u);  // the star that is about to change
+      kept.measure(u, ring[0]);
+      kept.measure(ring[0], u);
       parts.mesh.collapse(u, ring[0]);
-      kept.take();
+      kept.accept();
       std::vector<std::uint32_t> around;
       parts.mesh.ring(ring[0], around);
       for (const std::uint32_t w : around) {
         CollapseMap fresh(parts.mesh, parts.table, parts.wedges.positions, {}, Matching::nearest);
-        EXPECT_EQ(kept.look(ring[0], w) < 1e30f, fresh.lay(ring[0], w));
+        EXPECT_EQ(kept.measure(ring[0], w) < 1e30f, fresh.build(ring[0], w));
       }
     }
   }
