@@ -49,7 +49,7 @@ class AdaptLevels {
   LevelCharts charts() const { return make_level_charts(mesh_, log_); }
   /// Not for TexelKind::texture.
   IndexMap map() const;
-  /// The same at the last level: what followed the collapses is let go, and set_faces() is over.
+  /// The same, moved out: frees the adapter, so set_faces() may not be called any more.
   IndexMap take_map();
   /// The texture, or another that has the same texture coordinates, for this level.
   ImageRgba8 bake() const;

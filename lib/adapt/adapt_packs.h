@@ -1,4 +1,4 @@
-// Adaptations that touch disjoint parts of a texture, side by side.
+// Groups of adaptations that touch disjoint parts of a texture and may run in parallel.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 namespace viewcell {
 
 /// Steps of a log, pack by pack: no adaptation of a pack writes a texel that another one of it
-/// reads or writes. Each stands behind all that it depends on.
+/// reads or writes. Each comes after all that it depends on.
 struct AdaptPacks {
   std::vector<std::uint32_t> order;
   std::vector<std::size_t> first;  ///< of each pack's in order; one more at the end

@@ -12,7 +12,7 @@
 namespace viewcell {
 namespace {
 
-// Corners are 16-bit places.
+// Corners are 16-bit indices.
 constexpr std::size_t kMostPoints = 65535;
 
 // The input as it stands before the first collapse, in the numbers of the record; then, with
@@ -52,7 +52,7 @@ int turn_of(const glm::vec2& a, const glm::vec2& b, const glm::vec2& c) {
   return std::abs(area2) <= most ? 0 : area2 > 0 ? 1 : -1;
 }
 
-// Lays one collapse after another.
+// Maps one collapse after another and appends its overlay cells to the log.
 class LogBuilder {
  public:
   explicit LogBuilder(const ProgressiveRecord& record)
@@ -79,18 +79,18 @@ class LogBuilder {
   enum class Step { done, folded, unmapped };
   struct Edge {
     std::uint16_t a, b;  // a < b
-    std::uint32_t at;    // 3 * triangle + place
+    std::uint32_t at;    // 3 * triangle + corner
   };
   void mark_start() {
     log_.first_point.push_back(static_cast<std::uint32_t>(log_.points.size()));
     log_.first_triangle.push_back(static_cast<std::uint32_t>(log_.triangles.size()));
   }
   void find_moves(const VertexSplit& split);
-  bool stays(std::uint32_t v, const glm::vec3& place) const;
-  void move(std::uint32_t v, const glm::vec3& place, std::span<const WedgeMove> moves);
+  bool stays(std::uint32_t v, const glm::vec3& position) const;
+  void move(std::uint32_t v, const glm::vec3& position, std::span<const WedgeMove> moves);
   void merge(const VertexSplit& split);
   void collapse_edge(const VertexSplit& split, Step step);
-  Step add(bool is_laid, bool is_move = false);
+  Step add(bool is_mapped, bool is_move = false);
   void end_step(Step step);
   bool add_points();
   bool add_cells();
@@ -137,20 +137,21 @@ void LogBuilder::find_moves(const VertexSplit& split) {
   }
 }
 
-bool LogBuilder::stays(std::uint32_t v, const glm::vec3& place) const {
-  return finest_.wedges.positions[v] == place &&
+bool LogBuilder::stays(std::uint32_t v, const glm::vec3& position) const {
+  return finest_.wedges.positions[v] == position &&
          std::all_of(moves_.begin(), moves_.end(), [&](const WedgeMove& m) {
            return finest_.wedges.texcoords[m.wedge] == m.texcoord;
          });
 }
 
-void LogBuilder::move(std::uint32_t v, const glm::vec3& place, std::span<const WedgeMove> moves) {
-  finest_.wedges.positions[v] = place;
+void LogBuilder::move(std::uint32_t v, const glm::vec3& position,
+                      std::span<const WedgeMove> moves) {
+  finest_.wedges.positions[v] = position;
   for (const WedgeMove& m : moves) finest_.wedges.texcoords[m.wedge] = m.texcoord;
   map_.forget();
 }
 
-// The child goes; each of its wedges becomes one of the parent's.
+// The child is removed; each of its wedges becomes one of the parent's.
 void LogBuilder::merge(const VertexSplit& split) {
   if (!table_.match(mesh_, split.child, split.parent))
     throw InputError("progressive mesh", "split " + std::to_string(coarser_.level()),
@@ -169,21 +170,22 @@ void LogBuilder::collapse() {
   merge(split);
 }
 
-// A full-edge collapse in the first way that no face turns over: the child goes to the parent,
-// which then moves, unless it is there; the parent goes to the child; the parent moves first.
+// Splits a full-edge collapse into two steps, in the first of three ways in which no face turns
+// over: the child collapses into the parent, which then moves (unless it stays); the parent
+// collapses into the child, then moves; the parent moves, then the child collapses into it.
 void LogBuilder::collapse_edge(const VertexSplit& split, Step step) {
   const std::uint32_t u = split.child, v = split.parent;
-  const glm::vec3 place = coarser_.record().attributes.positions[v];
+  const glm::vec3 position = coarser_.record().attributes.positions[v];
   find_moves(split);
-  if (stays(v, place)) {
+  if (stays(v, position)) {
     end_step(step);
     merge(split);
     return mark_start();
   }
   const auto end_with_move = [&] {
     merge(split);
-    end_step(add(map_.build_move(v, glm::dvec3(place), moves_), true));
-    move(v, place, moves_);
+    end_step(add(map_.build_move(v, glm::dvec3(position), moves_), true));
+    move(v, position, moves_);
   };
   if (step == Step::done) {
     end_step(step);
@@ -199,8 +201,8 @@ void LogBuilder::collapse_edge(const VertexSplit& split, Step step) {
     move(v, finest_.wedges.positions[u], there);
     return end_with_move();
   }
-  end_step(add(map_.build_move(v, glm::dvec3(place), moves_), true));
-  move(v, place, moves_);
+  end_step(add(map_.build_move(v, glm::dvec3(position), moves_), true));
+  move(v, position, moves_);
   end_step(add(map_.build(u, v)));
   merge(split);
 }
@@ -208,16 +210,16 @@ void LogBuilder::collapse_edge(const VertexSplit& split, Step step) {
 void LogBuilder::end_step(Step step) {
   log_.n_folded += step == Step::folded;
   log_.n_unmapped += step == Step::unmapped;
-  // The star's faces move without a map, too, and one that is no fan is not among faces() whole.
+  // Without a map the star's faces change, too; and if the star is no fan, faces() is incomplete.
   mesh_.for_each_corner(map_.u(), [&](std::uint32_t c) { is_adapted_[c / 3] = true; });
   for (const std::uint32_t face : map_.faces()) is_adapted_[face] = true;
   mark_start();
 }
 
-// The step as the map lies now; nothing of it unless it is done.
-LogBuilder::Step LogBuilder::add(bool is_laid, bool is_move) {
+// Appends the step of the map built last; nothing unless the result is Step::done.
+LogBuilder::Step LogBuilder::add(bool is_mapped, bool is_move) {
   is_move_ = is_move;
-  if (!is_laid || map_.has_seam_end() || map_.overlay().texture_points().size() > kMostPoints)
+  if (!is_mapped || map_.has_seam_end() || map_.overlay().texture_points().size() > kMostPoints)
     return Step::unmapped;
   if (!add_points() || !add_cells()) {
     log_.points.resize(log_.first_point.back());

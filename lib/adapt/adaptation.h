@@ -1,4 +1,5 @@
-// What the collapses of a progressive mesh do to its texture: cells that correspond.
+// What the collapses of a progressive mesh do to its texture: overlay cells (pm/overlay_cells.h),
+// in texture coordinates before and after.
 #pragma once
 
 #include <array>
@@ -13,17 +14,18 @@
 
 namespace viewcell {
 
-/// A corner of cells, in texture coordinates.
+/// A corner of overlay cells, in texture coordinates.
 struct AdaptationPoint {
   glm::vec2 before, after;  ///< the collapse
 };
-/// Both are numbers, so near the texture that their texels in a map of any size can be counted.
+/// Whether both are finite and so near the texture that their texels in a map of any size can be
+/// counted.
 bool is_within_reach(const AdaptationPoint& point);
 
-/// Half of a cell, which lies in one face before and in one face after the collapse: the texture is
-/// affine from one to the other. It turns the same way in both.
+/// A triangle of an overlay cell, which lies in one face before and in one face after the collapse:
+/// the texture is affine from one to the other. It turns the same way in both.
 struct AdaptationTriangle {
-  std::array<std::uint16_t, 3> corners;  ///< places in the collapse's points
+  std::array<std::uint16_t, 3> corners;  ///< indices into the step's points
   std::uint16_t flags;
   std::uint32_t chart;
 
@@ -35,7 +37,7 @@ struct AdaptationTriangle {
 };
 static_assert(sizeof(AdaptationPoint) == 16 && sizeof(AdaptationTriangle) == 12);
 
-/// What one step adapts: the star of the vertex that goes, or that moves.
+/// What one step adapts: the star of the vertex that is removed, or that moves.
 struct Adaptation {
   std::span<const AdaptationPoint> points;
   std::span<const AdaptationTriangle> triangles;
@@ -53,9 +55,9 @@ struct AdaptationLog {
   std::vector<std::uint32_t> charts;  ///< of the record's faces, see find_joined_charts()
   std::size_t n_charts = 0;
   std::size_t n_folded = 0;  ///< steps that turn a face over in the texture
-  /// Steps that have no map of cells; so are those of a vertex where a seam ends within a chart.
+  /// Steps that have no overlay; steps of a vertex where a seam ends within a chart have none.
   std::size_t n_unmapped = 0;
-  std::size_t n_moved = 0;  ///< edges with points that had to be moved, lest cells fold
+  std::size_t n_moved = 0;  ///< edges with points that were moved so that no cell folds
 
   std::size_t n_steps() const { return first_point.empty() ? 0 : first_point.size() - 1; }
   std::size_t n_collapses() const { return n_steps() / steps_per_collapse; }
@@ -74,9 +76,9 @@ struct LevelCharts {
 };
 LevelCharts make_level_charts(const ProgressiveMesh& mesh, const AdaptationLog& log);
 
-/// Lays the cells of every collapse again, points matched by nearness as in the mapping metric. The
-/// record must have texture coordinates and be sound (see check_record). Throws InputError for a
-/// split that does not keep to texture charts. About 3 us a step.
+/// Rebuilds the overlay cells of every collapse, points matched by nearness as in the mapping
+/// metric. The record must have texture coordinates and be sound (see check_record). Throws
+/// InputError for a split that does not keep to texture charts. About 3 us a step.
 /// Follows: [Chen06 3.2.2].
 AdaptationLog make_adaptation_log(const ProgressiveRecord& record, const Progress& progress = {});
 

@@ -13,7 +13,7 @@ namespace viewcell {
 namespace {
 
 constexpr float kUnlimited = 1e9f;
-constexpr float kSnap = 1 / 16.0f;  // texels: more than GL rounds places by
+constexpr float kSnap = 1 / 16.0f;  // texels: more than GL rounds positions by
 
 bool is_finite(const TexelTriangle& p) {
   return std::isfinite(p[0].x + p[0].y + p[1].x + p[1].y + p[2].x + p[2].y);
@@ -47,7 +47,7 @@ void append_widened(const std::vector<glm::vec2>& hull, float margin, std::vecto
   }
 }
 
-// Places in the triangle's own frame: no limits.
+// Positions in the triangle's own frame: no limits.
 OwnedVertex unlimited(OwnedVertex vertex) {
   vertex.origin = glm::vec2(0), vertex.along = glm::vec2(1, 0), vertex.side = -1;
   vertex.lo = glm::vec2(-kUnlimited), vertex.hi = glm::vec2(kUnlimited);
@@ -75,11 +75,11 @@ AdaptBatch AdaptBatchBuilder::take() {
 }
 
 void AdaptBatchBuilder::add_pack(std::span<const std::uint32_t> collapses, bool is_collapse) {
-  scratch_.sampled.clear(), scratch_.own_place.clear(), scratch_.released.clear();
+  scratch_.sampled.clear(), scratch_.own_texcoords.clear(), scratch_.released.clear();
   PackDraws draws;
   draws.sample_owned.first = batch_.owned.size();
   add_copies(written_owned_, scratch_.released);
-  add_copies(written_, scratch_.own_place);
+  add_copies(written_, scratch_.own_texcoords);
   draws.boxes = {batch_.boxes.size(), written_boxes_.size()};
   batch_.boxes.insert(batch_.boxes.end(), written_boxes_.begin(), written_boxes_.end());
   written_boxes_.clear();
@@ -101,7 +101,7 @@ void AdaptBatchBuilder::add_pack(std::span<const std::uint32_t> collapses, bool 
       add_plain(adaptation, is_collapse);
   }
   draws.copy_owned = append(scratch_.released);
-  draws.copy_values = append(scratch_.own_place);
+  draws.copy_values = append(scratch_.own_texcoords);
   draws.sample = append(scratch_.sampled);
   draws.sample_owned.n = batch_.owned.size() - draws.sample_owned.first;
   batch_.packs.push_back(draws);
@@ -109,23 +109,23 @@ void AdaptBatchBuilder::add_pack(std::span<const std::uint32_t> collapses, bool 
 
 void AdaptBatchBuilder::read_points(const Adaptation& adaptation, bool is_collapse) {
   scratch_.from.clear(), scratch_.to.clear();
-  const auto place = [&](const glm::vec2& uv) {
+  const auto to_gl_texels = [&](const glm::vec2& uv) {
     glm::dvec2 p = to_texels(uv, width_px_, height_px_);
     p.y = height_px_ - 1 - p.y;
     return glm::vec2(p);
   };
   for (const AdaptationPoint& point : adaptation.points) {
-    scratch_.from.push_back(place(is_collapse ? point.before : point.after));
-    scratch_.to.push_back(place(is_collapse ? point.after : point.before));
+    scratch_.from.push_back(to_gl_texels(is_collapse ? point.before : point.after));
+    scratch_.to.push_back(to_gl_texels(is_collapse ? point.after : point.before));
   }
 }
 
-TexelTriangle AdaptBatchBuilder::corners(const std::vector<glm::vec2>& places,
+TexelTriangle AdaptBatchBuilder::corners(const std::vector<glm::vec2>& points,
                                          const AdaptationTriangle& t) const {
-  return {places[t.corners[0]], places[t.corners[1]], places[t.corners[2]]};
+  return {points[t.corners[0]], points[t.corners[1]], points[t.corners[2]]};
 }
 
-bool AdaptBatchBuilder::is_own_place(const AdaptationTriangle& t, bool is_collapse) const {
+bool AdaptBatchBuilder::is_own_texcoords(const AdaptationTriangle& t, bool is_collapse) const {
   return has_original_ && !is_collapse && t.is_original();
 }
 
@@ -135,20 +135,20 @@ void AdaptBatchBuilder::add_plain(const Adaptation& adaptation, bool is_collapse
   add_written(adaptation, written_);
 }
 
-// Those that are sampled, or those that get their own place.
+// Those that are sampled, or those that get their own texture coordinates.
 void AdaptBatchBuilder::add_triangles(const Adaptation& adaptation, bool is_collapse,
-                                      bool own_place) {
-  std::vector<std::uint32_t>& indices = own_place ? scratch_.own_place : scratch_.sampled;
+                                      bool own_texcoords) {
+  std::vector<std::uint32_t>& indices = own_texcoords ? scratch_.own_texcoords : scratch_.sampled;
   const auto base = static_cast<std::uint32_t>(batch_.vertices.size());
   const std::size_t n = indices.size();
   for (const AdaptationTriangle& t : adaptation.triangles) {
-    if (is_own_place(t, is_collapse) != own_place) continue;
+    if (is_own_texcoords(t, is_collapse) != own_texcoords) continue;
     if (!is_finite(corners(scratch_.to, t)) || !is_finite(corners(scratch_.from, t))) continue;
     for (const std::uint16_t corner : t.corners) indices.push_back(base + corner);
   }
   if (indices.size() == n) return;
   for (std::size_t k = 0; k < scratch_.to.size(); ++k)
-    batch_.vertices.push_back({scratch_.to[k], own_place ? glm::vec2(1, 0) : scratch_.from[k]});
+    batch_.vertices.push_back({scratch_.to[k], own_texcoords ? glm::vec2(1, 0) : scratch_.from[k]});
 }
 
 void AdaptBatchBuilder::add_owned(const Adaptation& adaptation, bool is_collapse, bool has_border) {
@@ -162,7 +162,7 @@ void AdaptBatchBuilder::add_owned(const Adaptation& adaptation, bool is_collapse
       const TexelTriangle from = corners(scratch_.from, t), to = corners(scratch_.to, t);
       if (!is_finite(from) || !is_finite(to)) continue;
       vertex.name = owner_name(t.chart);
-      vertex.n_corners = n_corners | (is_own_place(t, is_collapse) ? kOwnPlaceBit : 0);
+      vertex.n_corners = n_corners | (is_own_texcoords(t, is_collapse) ? kOwnTexcoordsBit : 0);
       visit(t, from, to);
     }
   };
@@ -174,7 +174,7 @@ void AdaptBatchBuilder::add_owned(const Adaptation& adaptation, bool is_collapse
   });
   visit_cells([&](const AdaptationTriangle&, const TexelTriangle& from, const TexelTriangle& to) {
     vertex.owner = has_border ? kInsideChart | vertex.name : 0;
-    vertex.n_corners &= kOwnPlaceBit;
+    vertex.n_corners &= kOwnTexcoordsBit;
     for (std::size_t k = 0; k < 3; ++k) {
       vertex.to = to[k], vertex.local = from[k];
       batch_.owned.push_back(vertex);
@@ -188,7 +188,7 @@ void AdaptBatchBuilder::add_owned(const Adaptation& adaptation, bool is_collapse
   add_border_written();
 }
 
-// What the star held is no chart's until it is written again.
+// The texels of the star lose their owner until they are written again.
 void AdaptBatchBuilder::add_release(const Adaptation& adaptation) {
   for (const AdaptationTriangle& t : adaptation.triangles) {
     const TexelTriangle from = corners(scratch_.from, t);
@@ -232,7 +232,7 @@ void AdaptBatchBuilder::add_gutter(const TexelTriangle& from, const TexelTriangl
   }
 }
 
-// What an adaptation inside a chart writes. Its box may be much larger where it lies slant.
+// What an adaptation inside a chart writes. Its box may be much larger where it is oblique.
 void AdaptBatchBuilder::add_written(const Adaptation& adaptation, Outlines& outlines) {
   constexpr float kLargest = 4, kSmall = 256;  // times the star's texels; texels
   if (!copies_boxes_) return add_outline(scratch_.to, outlines);

@@ -13,16 +13,16 @@
 
 namespace viewcell {
 
-// Places are in texels, centres at whole numbers, rows up as in GL.
+// Positions are in texels, centres at whole numbers, rows up as in GL.
 
 /// Of triangles that need no owners. Where `from` is interpolated, a texel at `to` is sampled
-/// there. Where it is not, from.x says what becomes of the texel: 0 stays, 1 its own place (values
-/// alone); or the name of the chart that gives it up (with owners).
+/// there. Where it is not, from.x says what becomes of the texel: 0 stays, 1 gets its own texture
+/// coordinates (values alone); or the name of the chart that no longer owns it (with owners).
 struct AdaptVertex {
   glm::vec2 to, from;
 };
 
-/// Of triangles that look who owns the texels they read and write. The source is
+/// Of triangles that look up who owns the texels they read and write. The source is
 /// origin + clamp(local.x, lo.x, hi.x) * along + clamp(local.y, lo.y, hi.y) * out, where out is
 /// (along.y, -along.x) * side.
 struct OwnedVertex {
@@ -33,11 +33,11 @@ struct OwnedVertex {
   std::uint32_t owner = 0;  ///< as it will be; 0: as it is
   std::uint32_t name = 0;   ///< whose texels are sampled
   /// Of the star whose texels the chart may take over, in star_corners; bit 31 of n_corners: the
-  /// texels get their own place.
+  /// texels get their own texture coordinates.
   std::uint32_t first_corner = 0, n_corners = 0;
 };
 static_assert(sizeof(AdaptVertex) == 16 && sizeof(OwnedVertex) == 68);
-inline constexpr std::uint32_t kOwnPlaceBit = 1u << 31;
+inline constexpr std::uint32_t kOwnTexcoordsBit = 1u << 31;
 
 struct DrawRange {
   std::size_t first = 0, n = 0;
@@ -52,8 +52,8 @@ struct TexelBox {
 /// Draws of one pack, in this order, after the boxes that are copied without drawing; the first
 /// three of indices, the last of owned vertices.
 struct PackDraws {
-  DrawRange copy_owned;   ///< values and owners of the pack before, and what stars give up
-  DrawRange copy_values;  ///< values of the pack before, and texels that get their own place
+  DrawRange copy_owned;   ///< values and owners of the pack before; texels that lose their owner
+  DrawRange copy_values;  ///< values of the pack before; texels set to their own coordinates
   DrawRange sample;
   DrawRange sample_owned;
   DrawRange boxes;  ///< of the pack before: values, and owners where they have any
@@ -75,8 +75,9 @@ struct AdaptBatch {
 /// and writes another, in which what the pack before it wrote is still missing and copied first.
 class AdaptBatchBuilder {
  public:
-  /// owners: rows up. has_original: texels may be set to their own place (indexing maps).
-  /// copies_boxes: what a pack wrote is copied as boxes, but where it lies too slant; false: drawn.
+  /// owners: rows up. has_original: texels may be set to their own texture coordinates (indexing
+  /// maps). copies_boxes: what a pack wrote is copied as boxes, unless it fills too little of its
+  /// box; false: drawn.
   AdaptBatchBuilder(const AdaptationLog& log, const Image<std::uint16_t>& owners, bool has_original,
                     bool copies_boxes);
   /// collapses: of one pack. is_collapse: false for splits.
@@ -91,13 +92,13 @@ class AdaptBatchBuilder {
   };
   struct Scratch {
     std::vector<glm::vec2> from, to;
-    std::vector<std::uint32_t> sampled, own_place, released;
+    std::vector<std::uint32_t> sampled, own_texcoords, released;
   };
   void read_points(const Adaptation& adaptation, bool is_collapse);
-  TexelTriangle corners(const std::vector<glm::vec2>& places, const AdaptationTriangle& t) const;
-  bool is_own_place(const AdaptationTriangle& t, bool is_collapse) const;
+  TexelTriangle corners(const std::vector<glm::vec2>& points, const AdaptationTriangle& t) const;
+  bool is_own_texcoords(const AdaptationTriangle& t, bool is_collapse) const;
   void add_plain(const Adaptation& adaptation, bool is_collapse);
-  void add_triangles(const Adaptation& adaptation, bool is_collapse, bool own_place);
+  void add_triangles(const Adaptation& adaptation, bool is_collapse, bool own_texcoords);
   void add_owned(const Adaptation& adaptation, bool is_collapse, bool has_border);
   void add_release(const Adaptation& adaptation);
   void add_gutter(const TexelTriangle& from, const TexelTriangle& to, std::size_t edge,

@@ -9,8 +9,8 @@ namespace {
 
 constexpr const char* kGlslVersion = "#version 450 core\n";
 
-constexpr const char* kPlace = R"(
-vec4 clip_from_place(vec2 at) { return vec4((at + 0.5) * (2 / vec2(kSize)) - 1, 0.5, 1); }
+constexpr const char* kClipFromTexel = R"(
+vec4 clip_from_texel(vec2 at) { return vec4((at + 0.5) * (2 / vec2(kSize)) - 1, 0.5, 1); }
 )";
 
 constexpr const char* kSampleVertex = R"(
@@ -19,7 +19,7 @@ layout(location = 1) in vec2 from;
 layout(location = 0) noperspective out vec2 source;
 void main() {
   source = SOURCE;
-  gl_Position = clip_from_place(to);
+  gl_Position = clip_from_texel(to);
 }
 )";
 
@@ -29,7 +29,7 @@ layout(location = 1) in vec2 from;
 layout(location = 0) flat out uint what;
 void main() {
   what = uint(from.x);
-  gl_Position = clip_from_place(to);
+  gl_Position = clip_from_texel(to);
 }
 )";
 
@@ -47,11 +47,11 @@ layout(location = 3) flat out float side;
 layout(location = 4) flat out uvec4 what;
 void main() {
   local = local_in, line = line_in, limits = limits_in, side = side_in, what = owners_in;
-  gl_Position = clip_from_place(to);
+  gl_Position = clip_from_texel(to);
 }
 )";
 
-// Values as they are kept, and the texel's own place.
+// Values as they are kept, and the texel's own texture coordinates.
 constexpr const char* kValues = R"(
 layout(binding = 0) uniform sampler2D values;
 layout(binding = 1) uniform usampler2D owners;
@@ -59,7 +59,7 @@ layout(location = 0) out Value value_out;
 Value value_at(ivec2 texel) { return texelFetch(values, texel, 0).CHANNELS; }
 uint owner_at(ivec2 texel) { return texelFetch(owners, texel, 0).r; }
 ivec2 here() { return ivec2(gl_FragCoord.xy); }
-Value own_place() { return Value((vec2(here()) + 0.5) / vec2(kSize) FILL); }
+Value own_texcoords() { return Value((vec2(here()) + 0.5) / vec2(kSize) FILL); }
 )";
 
 constexpr const char* kStoreExact = R"(
@@ -101,7 +101,7 @@ void main() {
   if (what == 0u)
     value_out = value;
   else
-    store(own_place());
+    store(own_texcoords());
 }
 )";
 
@@ -146,7 +146,7 @@ bool is_in_star(vec2 p, int n) {
   return found;
 }
 
-// From the texels of the chart alone; of none where all are others'.
+// From texels of the chart only; from all four where none of them is the chart's.
 Value sample_own(vec2 source) {
   vec2 at = clamp(source, vec2(0), vec2(kSize - 1));
   ivec2 p = ivec2(at), q = min(p + 1, kSize - 1);
@@ -178,7 +178,7 @@ void main() {
   vec2 along = line.zw, out_ = vec2(along.y, -along.x) * side;
   vec2 at = clamp(local, limits.xy, limits.zw);
   Value sampled = sample_own(line.xy + at.x * along + at.y * out_);
-  store((what.w & 0x80000000u) != 0u ? own_place() : sampled);
+  store((what.w & 0x80000000u) != 0u ? own_texcoords() : sampled);
 }
 )";
 
@@ -192,7 +192,7 @@ AdaptPrograms make_adapt_programs(const Gl& gl, int width_px, int height_px,
   const std::string vertex =
       kGlslVersion + size +
       (options.filters ? "#define SOURCE (from + 0.5) / vec2(kSize)\n" : "#define SOURCE from\n") +
-      kPlace;
+      kClipFromTexel;
   const std::string fragment =
       kGlslVersion + size +
       (options.n_channels == 4

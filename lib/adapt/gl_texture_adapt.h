@@ -26,9 +26,9 @@ struct GlAdaptCounts {
 };
 
 /// What TextureAdapter does, drawn into textures: texels on edges between cells may fall to the
-/// cell beside, and places are interpolated, so values differ by the rounding of single precision,
-/// and on such edges by what the map bends there. Texel: as there; kept as GL_RG32F, GL_RG16,
-/// GL_RG8, GL_RG16F or GL_RGBA8, which rounds at every step as the driver does.
+/// cell beside, and texture coordinates are interpolated, so values differ by the rounding of
+/// single precision, and on such edges by what the map bends there. Texel: as there; kept as
+/// GL_RG32F, GL_RG16, GL_RG8, GL_RG16F or GL_RGBA8, which rounds at every step as the driver does.
 ///
 /// A texture and its twin change roles with every pack: the one that is read is whole, and what a
 /// pack writes into the other is brought along with the next pack. Follows: [Chen06 3.2.3, 3.3].
@@ -53,7 +53,7 @@ class GlTextureAdapter {
   Image<Texel> image() const;  ///< read back; waits
   /// Row 0 is v = 0. Another one after each go_to().
   const GlTexture& texture() const;
-  /// Per texel, in the image's order: 0 nobody's, else a chart's (adapt/texel_owners.h). Waits.
+  /// Per texel, in the image's order: 0 for none, else a chart's (adapt/texel_owners.h). Waits.
   Image<std::uint16_t> owners() const;
   const GlAdaptCounts& counts() const;
 

@@ -1,4 +1,4 @@
-// The strip of a gutter along the border of a cell, and where it is continued from.
+// The strip of a gutter along the border of an overlay cell, and where its values come from.
 #pragma once
 
 #include <algorithm>
@@ -18,7 +18,7 @@ struct GutterStrip {
   glm::vec2 start, out, along;  ///< of the edge in the source: an end, unit vectors
   float length = 0;             ///< of the edge in the source
 
-  /// The place in the source, no farther from the edge than there are texels of the chart.
+  /// The point of the source, no farther from the edge than there are texels of the chart.
   glm::vec2 limit(const glm::vec2& at) const {
     const float beyond = glm::dot(at - start, out), t = glm::dot(at - start, along);
     return at - std::max(beyond - kGutter, 0.0f) * out +

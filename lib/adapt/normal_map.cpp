@@ -67,18 +67,18 @@ glm::dvec3 fetch_normal_at(const NormalSource& finest, const IndexMap& map, int 
   const ImageRgba8* image = finest.normal_map;
   const bool is_own = image && map.width_px == image->width_px &&
                       map.height_px == image->height_px &&
-                      uv == own_place(x, y, map.width_px, map.height_px);
+                      uv == own_texcoords(x, y, map.width_px, map.height_px);
   return is_own ? decode_normal(image->at(x, y), finest.y) : fetch_normal(finest, uv);
 }
 
 // ---- In the level's frame -----------------------------------------------------------------------
 
-// A frame whose columns span less than this, over the product of their lengths, has no inverse
-// worth the name: neighbouring normals are opposite.
+// A frame whose columns span less than this, over the product of their lengths, counts as
+// singular: neighbouring normals are opposite.
 constexpr double kLeastVolume = 1e-6;
 
 // The direction meant, as long as `length`, in a frame; false: it lies below the surface, and is
-// laid into it.
+// projected into it.
 bool express(const glm::dmat3& frame, const glm::dvec3& meant, double length, glm::dvec3& out) {
   out = {0, 0, length};
   const double volume = glm::determinant(frame);
@@ -101,7 +101,7 @@ void bake_row(const IndexMap& map, const TriangleMap& triangles, const NormalSou
     if (triangles.at(x, y) == 0) continue;
     const std::uint32_t t = triangles.at(x, y) - 1;
     glm::dvec3 normal = fetch_normal_at(finest, map, x, y);
-    const TriangleGrid::Place from = finest.grid.find(glm::dvec2(map.at(x, y)), level.charts[t]);
+    const TriangleGrid::Nearest from = finest.grid.find(glm::dvec2(map.at(x, y)), level.charts[t]);
     if (from.triangle != TriangleGrid::kNone) {
       const Corners2 corners = texels_of(level.mesh, t, map.width_px, map.height_px);
       const glm::dmat3 frame = frames.at(t, nearest_weights(corners, {x, y}));

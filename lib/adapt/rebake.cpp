@@ -21,7 +21,8 @@ namespace {
 // original: more than sheets are thick, less than what is opposite.
 constexpr double kSheetShare = 0.01;
 
-// Surface points as near as rounding tells, and corner weights that are 0, over the diagonal and 1.
+// Surface points that are equally near within rounding, and corner weights that are 0, over the
+// diagonal and 1.
 constexpr double kSameDistance = 1e-7, kZeroWeight = 1e-6;
 
 using Corners3 = std::array<glm::dvec3, 3>;
@@ -129,7 +130,7 @@ Hit make_hit(const Original& original, std::uint32_t triangle, const glm::dvec3&
   return hit;
 }
 
-// On a seam, the same point seen from the side whose place in the texture is nearest to `wanted`.
+// On a seam, the same point seen from the side whose texture coordinates are nearest to `wanted`.
 Hit choose_side(const Original& original, const ClosestPoint& found, const glm::dvec3& p,
                 const glm::dvec2& wanted) {
   Hit best = make_hit(original, found.triangle, found.point);

@@ -12,7 +12,7 @@ struct RebakeOptions {
   int width_px = 0;   ///< of the result; 0: the texture's
   int height_px = 0;  ///< of the result; 0: the texture's
   int n_threads = 0;  ///< 0: all; the result does not depend on it
-  Progress progress;  ///< told of rows done
+  Progress progress;  ///< called with the rows done
 };
 
 /// The texture of level, a simplified original, over level's own texture coordinates. A texel whose
@@ -28,7 +28,7 @@ struct RebakeOptions {
 ///
 /// Both meshes need texture coordinates, finite positions and indices in range, original a
 /// triangle; parts outside [0, 1] are left out of the result and continue the texture's rim as a
-/// source (check_charts tells). Throws MachineError. About a microsecond a texel shown, on one
+/// source (see check_charts). Throws MachineError. About a microsecond a texel shown, on one
 /// thread.
 ImageRgba8 rebake_texture(const TriMesh& level, const TriMesh& original, const ImageRgba8& texture,
                           const RebakeOptions& options = {});

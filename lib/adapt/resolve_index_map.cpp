@@ -29,7 +29,8 @@ ImageRgba8 continue_charts(const ImageRgba8& texture, const LevelCharts& finest,
   return out;
 }
 
-// continued: the texture beyond its charts. Texels that hold their own place keep the texture's.
+// continued: the texture beyond its charts. Texels that hold their own texture
+// coordinates keep the texture's.
 ImageRgba8 look_up(const IndexMap& map, const ImageRgba8& texture, const ImageRgba8& continued,
                    int n_threads) {
   const int width_px = map.width_px, height_px = map.height_px;
@@ -39,15 +40,15 @@ ImageRgba8 look_up(const IndexMap& map, const ImageRgba8& texture, const ImageRg
     const int y = static_cast<int>(row);
     for (int x = 0; x < width_px; ++x) {
       const glm::vec2 uv = map.at(x, y);
-      const bool is_own = uv == own_place(x, y, width_px, height_px);
+      const bool is_own = uv == own_texcoords(x, y, width_px, height_px);
       out.at(x, y) = is_same_size && is_own ? texture.at(x, y) : fetch(continued, uv);
     }
   });
   return out;
 }
 
-// What charts have left behind takes the nearest texel that is theirs; what none covered, before or
-// now, its own of the original where that has the same size.
+// Texels that charts covered before and do not now get the nearest chart texel's colour; texels
+// that none covered, before or now, keep the original's where it has the same size.
 void fill_around(ImageRgba8& image, const ImageRgba8& original, const LevelCharts& finest,
                  const LevelCharts& level, int n_threads) {
   const Image<std::uint8_t> was = make_chart_mask(finest, image.width_px, image.height_px);

@@ -32,7 +32,7 @@ struct TexelBatch {
   std::vector<float> x, y;                    ///< where the values are sampled
   std::vector<Run> runs;                      ///< of values to be sampled
   std::size_t n_spans = 0, n_values = 0;      ///< in use
-  std::size_t n_texels = 0, n_conflicts = 0;  ///< written since somebody took them; see AdaptCounts
+  std::size_t n_texels = 0, n_conflicts = 0;  ///< since they were last reset; see AdaptCounts
 
   void clear() {
     from.clear(), to.clear(), runs.clear();
@@ -48,13 +48,13 @@ struct TexelBatch {
     else
       runs.push_back({first, last});
   }
-  Places places(std::size_t first) { return {x.data() + first, y.data() + first}; }
+  SamplePoints points(std::size_t first) { return {x.data() + first, y.data() + first}; }
 
   /// Samples the runs.
   void sample(const View<Texel>& image);
-  /// Inside a chart the star's texels stay the chart's.
+  /// For stars without chart borders: owners do not change.
   void write_inside(Texel* pixels);
-  /// What is inside a chart already stays.
+  /// For stars with chart borders: texels inside a chart already are left alone.
   void write_border(Texel* pixels, std::uint16_t* owners);
 };
 
@@ -75,11 +75,11 @@ Texel* TexelBatch<Texel>::make_room(const TexelTriangle& p, int width_px, int he
 template <typename Texel>
 void TexelBatch<Texel>::sample(const View<Texel>& image) {
   for (const Run& run : runs) {
-    // What is written beyond may be somebody's.
+    // sample_points() may write beyond the run, over values of other spans.
     std::array<Texel, 7> beyond;
     Texel* end = values.data() + run.last;
     std::copy_n(end, beyond.size(), beyond.data());
-    sample_places(image, places(run.first), run.last - run.first, values.data() + run.first);
+    sample_points(image, points(run.first), run.last - run.first, values.data() + run.first);
     std::copy_n(beyond.data(), beyond.size(), end);
   }
 }

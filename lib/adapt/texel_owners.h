@@ -8,7 +8,8 @@
 
 namespace viewcell {
 
-/// Who has a texel: 0 nobody, else a chart's name, with this bit where the chart lies.
+/// The owner of a texel: 0 for none, else a chart's name; with this bit inside the chart, without
+/// it in the chart's gutter.
 inline constexpr std::uint16_t kInsideChart = 0x8000;
 
 /// 1 to 0x7ffe; past so many charts names repeat.
@@ -27,7 +28,7 @@ Image<std::uint8_t> make_chart_mask(const LevelCharts& charts, int width_px, int
 /// chart's texel. Never says no where the answer is yes.
 class OwnerTiles {
  public:
-  /// All places are in the rows of this image.
+  /// All coordinates are texels of this image, rows as here.
   explicit OwnerTiles(const Image<std::uint16_t>& owners);
   void mark(const glm::vec2& lo, const glm::vec2& hi, std::uint16_t name);
   bool has_others(const glm::vec2& lo, const glm::vec2& hi, std::uint16_t name) const;

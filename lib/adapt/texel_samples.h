@@ -56,7 +56,7 @@ inline void store(Float4 v, Rgba8& t) {
 template <typename Texel>
 constexpr bool kIsIndex = !std::is_same_v<Texel, Rgba8>;
 
-// Four texels and the weights between them. Places outside count as the nearest inside.
+// Four texels and the weights between them. Points outside count as the nearest inside.
 struct Footprint {
   int x, y;
   float s, t;
@@ -104,8 +104,8 @@ Float4 sample(const View<Texel>& image, const glm::vec2& at) {
   return top + f.t * (bottom - top);
 }
 
-// The source places of texels, one after another.
-struct Places {
+// The points of the source that texels are sampled at, one after another.
+struct SamplePoints {
   float *x, *y;
 };
 
@@ -113,8 +113,8 @@ typedef float Float8 __attribute__((vector_size(32)));
 typedef std::int32_t Int8 __attribute__((vector_size(32)));
 
 // start + k * step for k in [0, n); up to seven more are written, too.
-[[gnu::always_inline]] inline void place_line(const glm::vec2& start, const glm::vec2& step, int n,
-                                              const Places& out) {
+[[gnu::always_inline]] inline void fill_line(const glm::vec2& start, const glm::vec2& step, int n,
+                                             const SamplePoints& out) {
   const Float8 count{0, 1, 2, 3, 4, 5, 6, 7};
   int k = 0;
   do {
@@ -126,12 +126,12 @@ typedef std::int32_t Int8 __attribute__((vector_size(32)));
 }
 
 template <typename Texel>
-void sample_places(const View<Texel>& image, const Places& at, std::size_t n, Texel* out) {
+void sample_points(const View<Texel>& image, const SamplePoints& at, std::size_t n, Texel* out) {
   for (std::size_t k = 0; k < n; ++k) store(sample(image, glm::vec2(at.x[k], at.y[k])), out[k]);
 }
 
 // The same for pairs of floats, eight texels at once; up to seven beyond n are written, too.
-inline void sample_places(const View<glm::vec2>& image, const Places& at, std::size_t n,
+inline void sample_points(const View<glm::vec2>& image, const SamplePoints& at, std::size_t n,
                           glm::vec2* out) {
   if (image.width_px < 2 || image.height_px < 2) {
     for (std::size_t k = 0; k < n; ++k) store(sample(image, glm::vec2(at.x[k], at.y[k])), out[k]);
@@ -151,9 +151,9 @@ inline void sample_places(const View<glm::vec2>& image, const Places& at, std::s
     const Int8 ix = __builtin_convertvector(x, Int8), iy = __builtin_convertvector(y, Int8);
     const Float8 s = x - __builtin_convertvector(ix, Float8);
     const Float8 t = y - __builtin_convertvector(iy, Float8);
-    const Int8 place = 2 * (iy * image.pitch_px + ix);
+    const Int8 index = 2 * (iy * image.pitch_px + ix);
     const auto mixed_rows = [&](std::size_t j) __attribute__((always_inline)) {
-      const float* texel = pixels + static_cast<std::uint32_t>(place[j]);
+      const float* texel = pixels + static_cast<std::uint32_t>(index[j]);
       Float4 a, b;
       __builtin_memcpy(&a, texel, sizeof a);
       __builtin_memcpy(&b, texel + row, sizeof b);
@@ -182,7 +182,7 @@ void copy_texels(const Texel* from, int n, Texel* to) {
   }
 }
 
-// The same from the texels of one chart alone; of none where all are others'.
+// The same from texels of one chart only; from all four where none of them is the chart's.
 template <typename Texel>
 Float4 sample_own(const View<Texel>& image, const std::uint16_t* owners, std::uint16_t name,
                   const glm::vec2& at) {

@@ -35,8 +35,10 @@ class TextureAdapter<Texel>::Engine {
       std::copy_n(&image.at(0, y), width_px_, &pixels_[offset(0, y)]);
       std::copy_n(&owners.at(0, y), width_px_, &owners_[offset(0, y)]);
     }
-    for (int x = 0; x < width_px_; ++x) own_u_.push_back(own_place(x, 0, width_px_, height_px_).x);
-    for (int y = 0; y < height_px_; ++y) own_v_.push_back(own_place(0, y, width_px_, height_px_).y);
+    for (int x = 0; x < width_px_; ++x)
+      own_u_.push_back(own_texcoords(x, 0, width_px_, height_px_).x);
+    for (int y = 0; y < height_px_; ++y)
+      own_v_.push_back(own_texcoords(0, y, width_px_, height_px_).y);
     threads_.resize(static_cast<std::size_t>(options_.n_threads));
   }
 
@@ -44,7 +46,7 @@ class TextureAdapter<Texel>::Engine {
 
   const AdaptationLog& log_;
   // Rows are one line of the cache longer than the image: of a power of two, all rows of a star
-  // would want the same few places in it.
+  // would compete for the same few sets of it.
   static constexpr int kLine_px = 64 / sizeof(Texel);
   int width_px_, height_px_, pitch_px_;
   LargeVector<Texel> pixels_;
@@ -80,12 +82,14 @@ class TextureAdapter<Texel>::Engine {
               out[k]);
   }
   View<Texel> view() const { return {pixels_.data(), width_px_, height_px_, pitch_px_}; }
-  glm::vec2 place_of(const glm::vec2& uv) const { return to_texels(uv, width_px_, height_px_); }
+  glm::vec2 texel_position(const glm::vec2& uv) const {
+    return to_texels(uv, width_px_, height_px_);
+  }
   void fetch(std::size_t step) const;
   bool meets_others(const Adaptation& adaptation, const Batch& batch) const;
   void adapt(std::size_t step, bool is_collapse, Batch& batch);
   void gather_cell(const Cell& cell, Batch& batch) const;
-  void place_cell(const Cell& cell, Batch& batch) const;
+  void add_source_points(const Cell& cell, Batch& batch) const;
   void gather_gutter(const Cell& cell, std::size_t k, Batch& batch) const;
   void release(const Adaptation& adaptation, const Batch& batch);
   void mark_tiles(const Adaptation& adaptation, const Batch& batch);
@@ -114,12 +118,12 @@ void TextureAdapter<Texel>::Engine::go_to(std::size_t n_collapsed) {
   }
 }
 
-// The texels of a star come from all over the map: hints that those of one are wanted soon.
+// Prefetches the texels of a star, which may lie anywhere in the map.
 template <typename Texel>
 void TextureAdapter<Texel>::Engine::fetch(std::size_t step) const {
   glm::vec2 lo(1e30f), hi(-1e30f);
   for (const AdaptationPoint& point : log_.of(step).points) {
-    const glm::vec2 p = place_of(point.before);
+    const glm::vec2 p = texel_position(point.before);
     lo = glm::min(lo, p), hi = glm::max(hi, p);
   }
   const int x0 = std::clamp(static_cast<int>(lo.x), 0, width_px_ - 1);
@@ -150,7 +154,7 @@ void TextureAdapter<Texel>::Engine::adapt(std::size_t step, bool is_collapse, Ba
   glm::vec2* before = is_collapse ? batch.from.data() : batch.to.data();
   glm::vec2* after = is_collapse ? batch.to.data() : batch.from.data();
   for (const AdaptationPoint& point : adaptation.points)
-    *before++ = place_of(point.before), *after++ = place_of(point.after);
+    *before++ = texel_position(point.before), *after++ = texel_position(point.after);
   bool has_border = false;
   Cell cell;
   cell.from_points = batch.from.data(), cell.to_points = batch.to.data();
@@ -164,7 +168,7 @@ void TextureAdapter<Texel>::Engine::adapt(std::size_t step, bool is_collapse, Ba
     }
   };
   visit_cells([&](const AdaptationTriangle& t) {
-    cell.is_original || cell.is_guarded ? gather_cell(cell, batch) : place_cell(cell, batch);
+    cell.is_original || cell.is_guarded ? gather_cell(cell, batch) : add_source_points(cell, batch);
     has_border = has_border || t.has_border();
   });
   batch.sample(view());
@@ -178,23 +182,23 @@ void TextureAdapter<Texel>::Engine::adapt(std::size_t step, bool is_collapse, Ba
   mark_tiles(adaptation, batch);
 }
 
-// Where the texels of a cell come from. All cells of a star are sampled together: rows are short,
-// and their ends cost more than what is between.
+// Adds the points that the texels of a cell are sampled at. All cells of a star are sampled
+// together: rows are short, and their ends cost more than what is between.
 template <typename Texel>
-void TextureAdapter<Texel>::Engine::place_cell(const Cell& cell, Batch& batch) const {
+void TextureAdapter<Texel>::Engine::add_source_points(const Cell& cell, Batch& batch) const {
   const TexelTriangle to = cell.to();
   const TexelAffine source = make_affine(to, cell.from());
   batch.make_room(to, width_px_, height_px_);
   std::size_t at = batch.n_values;
   TexelSpan* span = batch.spans.data() + batch.n_spans;
-  const Places places = batch.places(0);
+  const SamplePoints points = batch.points(0);
   const auto owner = static_cast<std::uint16_t>(kInsideChart | cell.name);
   for_each_row(
       to, width_px_, height_px_, [&](int x0, int x1, int y) __attribute__((always_inline)) {
         const int n = std::max(x1 - x0, 0);
         *span = {static_cast<std::uint32_t>(offset(x0, y)), static_cast<std::uint16_t>(n), owner};
         span += n > 0;
-        place_line(source(glm::vec2(x0, y)), source.x, n, {places.x + at, places.y + at});
+        fill_line(source(glm::vec2(x0, y)), source.x, n, {points.x + at, points.y + at});
         at += static_cast<std::size_t>(n);
       });
   batch.add_run(batch.n_values, at);
@@ -251,7 +255,7 @@ void TextureAdapter<Texel>::Engine::gather_gutter(const Cell& cell, std::size_t 
   }
 }
 
-// What the star held is no chart's until it is written again.
+// The texels of the star lose their owner until they are written again.
 template <typename Texel>
 void TextureAdapter<Texel>::Engine::release(const Adaptation& adaptation, const Batch& batch) {
   for (const AdaptationTriangle& t : adaptation.triangles)
@@ -320,7 +324,7 @@ Image<Texel> make_index_map(int width_px, int height_px) {
   Image<Texel> map(width_px, height_px);
   for (int y = 0; y < height_px; ++y)
     for (int x = 0; x < width_px; ++x)
-      store(load(own_place(x, y, width_px, height_px)), map.at(x, y));
+      store(load(own_texcoords(x, y, width_px, height_px)), map.at(x, y));
   return map;
 }
 

@@ -1,4 +1,5 @@
-// Textures, and indexing maps in their stead, that follow the collapses of a progressive mesh.
+// Textures, and indexing maps used instead of them, that follow the collapses of a progressive
+// mesh.
 #pragma once
 
 #include <array>
@@ -24,7 +25,8 @@ struct HalfTexel {
   std::array<std::uint16_t, 2> uv;
 };
 
-/// Every texel holds its own place [Chen06 3.2.4]. Texel: glm::vec2 or one of the above.
+/// The identity: every texel holds its own texture coordinates [Chen06 3.2.4]. Texel: glm::vec2 or
+/// one of the above.
 template <typename Texel>
 Image<Texel> make_index_map(int width_px, int height_px);
 /// Exact.
@@ -36,24 +38,24 @@ Image<Texel> from_float(const IndexMap& map);
 
 struct AdaptOptions {
   int n_threads = 0;  ///< 0: all; the result does not depend on it
-  bool pack = true;   ///< disjoint collapses side by side; false: one after another
+  bool pack = true;   ///< disjoint collapses in parallel; false: one after another
 };
 
 struct AdaptCounts {
   std::size_t n_adaptations = 0;
-  std::size_t n_packs = 0;      ///< groups of adaptations that were made side by side
+  std::size_t n_packs = 0;      ///< groups of disjoint adaptations, made in parallel
   std::size_t n_texels = 0;     ///< written inside charts
-  std::size_t n_conflicts = 0;  ///< texels that a chart grew over though they are another's
+  std::size_t n_conflicts = 0;  ///< texels of another chart that a chart grew over
 };
 
 /// A texture at some level of a progressive mesh, which follows it both ways. Texel: glm::vec2 and
 /// its like for an indexing map, Rgba8 for the texture itself, which blurs more.
 ///
-/// Each texel of a star whose centre lies in a cell is sampled, bilinearly, where it lay before;
-/// all others stay. A split writes faces that are as in the finest mesh from the original instead
-/// of sampling them (indexing maps only), so a whole way back leaves no error behind. Around
-/// charts kGutter texels are continued beyond the border; samples take texels of their own chart
-/// alone. Follows: [Chen06 3.2.3, 3.3]. Differs: gutters, and charts kept apart.
+/// Each texel of a star whose centre lies in an overlay cell is sampled, bilinearly, where the
+/// point was before; all others stay. A split writes faces that are as in the finest mesh from the
+/// original instead of sampling them (indexing maps only), so after all splits the map is exactly
+/// the original. Around charts kGutter texels are continued beyond the border; samples take texels
+/// of their own chart alone. Follows: [Chen06 3.2.3, 3.3]. Differs: gutters, and charts kept apart.
 template <typename Texel>
 class TextureAdapter {
  public:

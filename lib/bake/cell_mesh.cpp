@@ -83,7 +83,7 @@ std::vector<glm::dvec3> sample_cell(const CellSet& cells, CellId cell) {
   const glm::dvec3 centre = ball_of(cells, cell).centre;
   std::vector<glm::dvec3> samples{centre};
   for (const double share : {0.45, 0.85})
-    for (const glm::dvec2& corner : corners_of(cells.grid, place_of(cells.grid, cell)))
+    for (const glm::dvec2& corner : corners_of(cells.grid, coord_of(cells.grid, cell)))
       samples.emplace_back(glm::mix(glm::dvec2(centre), corner, share), centre.z);
   return samples;
 }

@@ -41,8 +41,8 @@ struct BakeScene {
 /// Builds the levels of every mesh: some seconds for a million triangles.
 BakeScene build_bake_scene(const Scene& scene, const CellSet& cells, int n_threads);
 
-/// What stands for an object in a cell and, outside it, what choosing that took: the mesh starts
-/// from the same.
+/// What represents an object in a cell and, if the object is outside it, what was computed to
+/// choose that and is reused to build its mesh.
 struct CellObject {
   ObjectId object{};
   Representation kind = Representation::inside;
@@ -52,7 +52,7 @@ struct CellObject {
 };
 
 /// Inside the cell, or one view where the self-occluding error is below T_s, else several. Every
-/// object of a cell is exactly one of them, whoever asks.
+/// object of a cell is exactly one of them, in every tool.
 CellObject choose_representation(const BakeScene& bake, CellId cell, ObjectId object,
                                  const BakeOptions& options);
 

@@ -23,7 +23,7 @@ float slope_along(const CaptureTile& tile, int x, int y, int dx, int dy) {
 // front of, the surface that pixel (x, y) shows.
 bool agrees(const ClassifiedView& view, int x, int y, const glm::dvec2& at, double inverse_depth) {
   const CaptureTile& tile = view.tile;
-  // Two pixels' footprint in depth: surface detail below that is not told apart.
+  // Two pixels' footprint in depth: smaller surface detail is not resolved.
   const double detail = 2 * inverse_depth / tile.view.focal_px;
   const double slope = slope_along(tile, x, y, 1, 0) * std::abs(at.x - x - 0.5) +
                        slope_along(tile, x, y, 0, 1) * std::abs(at.y - y - 0.5);

@@ -7,7 +7,8 @@
 namespace viewcell {
 namespace {
 
-// An eye nearer than this to a surface would see nothing else: it does not drive the average.
+// Least distance in averages: an eye nearer to a surface would see nothing else, and must not
+// dominate them.
 constexpr double kLeastDistance = 5;
 // Cosine between normal and line of sight over which a surface comes from edge-on to facing.
 constexpr double kEdgeOnWidth = 0.3;
@@ -66,8 +67,8 @@ void ViewMetric::add_views() {
   }
 }
 
-// The edge's length across the line of sight, and along it as far as the cell's points see it
-// turned.
+// The edge's projected length: perpendicular to the line of sight, and of the part along it what
+// other points of the cell see (root of the sum of squares).
 float ViewMetric::projected_length_px(std::uint32_t u, std::uint32_t v) const {
   const glm::vec3 edge = vertices_.positions[v] - vertices_.positions[u];
   const float along = glm::dot(edge, directions_[u]);

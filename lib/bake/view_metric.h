@@ -33,19 +33,19 @@ struct ViewMetricOptions {
 /// weight collapses. A vertex keeps its own normal, weight and views when others collapse into it.
 ///
 /// Differs (no term bounds deviation): cost(u, v) = max(paper, T_l drift / max_drift), so
-/// that a collapse ends at T_l by either. drift, in px, is rms (P / 50)^(1/4): rms the root mean
-/// square of v's distances d to the planes of the triangles that it comes to stand for,
+/// that collapsing ends when either reaches T_l. drift, in px, is rms (P / 50)^(1/4): rms the root
+/// mean square of v's distances d to the planes of the triangles that it comes to stand for,
 /// sqrt(sum A s^2 d^2 / sum A s), P = sum A s in px^2, with A their areas and s how much a
 /// displacement there shows:
 ///   1 where the surface is seen edge-on from some point of the cell, or is a silhouette by the
 ///   paper's weights, falling to the parallax that a displacement of a facing surface causes, half
 ///   the cell's size over the distance: the texture is projected, so only its depth is wrong.
-/// It is no less than half the rms over u's part alone: a thin staff that collapses into a broad
-/// base would else hardly count, and leave a shard. The fourth root stands halfway between the same
-/// rms everywhere, which spends triangles on small patches, and the least sum of squares, which
-/// leaves the large ones crude. Pixels, in l and drift, are root mean squares over points of the
-/// cell (`samples`): by the nearest point alone, objects next to a cell would hardly be simplified
-/// at all.
+/// It is no less than half the rms over u's part alone: otherwise a thin part that collapses into
+/// a broad one would hardly count, and leave a spike. The fourth root stands halfway between the
+/// same rms everywhere, which spends triangles on small patches, and the least sum of squares,
+/// which leaves the large ones crude. Pixels, in l and drift, are root mean squares over points of
+/// the cell (`samples`): by the nearest point alone, objects next to a cell would hardly be
+/// simplified at all.
 class ViewMetric {
  public:
   ViewMetric(const ViewVertices& vertices, std::span<const Triangle> triangles,
@@ -54,9 +54,9 @@ class ViewMetric {
   float cost(std::uint32_t u, std::uint32_t v) const;
   bool allows(const CollapseMesh& mesh, std::uint32_t u, std::uint32_t v) const;
   void collapsed(std::uint32_t u, std::uint32_t v) { quadrics_[v].add(quadrics_[u]); }
-  /// How far v should move along its normal to lie best among the planes that it stands for, world
-  /// units, at most max_drift_px. Half-edge collapses keep vertices of a convex surface, so its
-  /// chords all lie inside: this takes the bias out of silhouettes.
+  /// How far v moves along its normal to the least squared distance from the planes that it stands
+  /// for, world units, at most max_drift_px. Half-edge collapses keep vertices of a convex surface,
+  /// so its chords all lie inside: this removes that bias of silhouettes.
   float offset(std::uint32_t v) const;
 
  private:

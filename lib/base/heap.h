@@ -15,12 +15,12 @@ namespace viewcell {
 /// operations O(log n). Memory: 4 bytes an id of the range, 8 to 16 an id held.
 class IndexedHeap {
  public:
-  explicit IndexedHeap(std::uint32_t n) : place_(n, kAbsent) {}
+  explicit IndexedHeap(std::uint32_t n) : slot_(n, kAbsent) {}
 
   bool empty() const { return size_ == 0; }
   std::size_t size() const { return size_; }
-  bool contains(std::uint32_t id) const { return place_[id] != kAbsent; }
-  float key(std::uint32_t id) const { return key_of(at(place_[id])); }
+  bool contains(std::uint32_t id) const { return slot_[id] != kAbsent; }
+  float key(std::uint32_t id) const { return key_of(at(slot_[id])); }
   std::uint32_t top() const { return id_of(at(0)); }
   /// The ids that come up next, as far as they are likely: the least child of the top one, that
   /// one's least child, and so on. kNone after the last.
@@ -35,7 +35,7 @@ class IndexedHeap {
 
  private:
   // Four children a node: half the levels of two, and siblings lie in one cache line. The root has
-  // place 0, the children of i have 4 i + 1 to 4 i + 4; three unused entries in front keep each
+  // slot 0, the children of i have 4 i + 1 to 4 i + 4; three unused entries in front keep each
   // four together.
   static constexpr std::uint32_t kChildren = 4, kFront = 3;
   // Key and id in one number whose order is that of key, then id.
@@ -57,18 +57,18 @@ class IndexedHeap {
   }
   static std::uint32_t id_of(Entry e) { return static_cast<std::uint32_t>(e); }
 
-  const Entry& at(std::uint32_t place) const {
-    return families_[(place + kFront) / kChildren].entries[(place + kFront) % kChildren];
+  const Entry& at(std::uint32_t slot) const {
+    return families_[(slot + kFront) / kChildren].entries[(slot + kFront) % kChildren];
   }
-  Entry& at(std::uint32_t place) { return const_cast<Entry&>(std::as_const(*this).at(place)); }
-  void put(std::uint32_t place, Entry e) { at(place) = e, place_[id_of(e)] = place; }
-  std::uint32_t least_child(std::uint32_t place) const;
-  void sift_up(std::uint32_t place, Entry e);
-  void sift_down(std::uint32_t place, Entry e);
+  Entry& at(std::uint32_t slot) { return const_cast<Entry&>(std::as_const(*this).at(slot)); }
+  void put(std::uint32_t slot, Entry e) { at(slot) = e, slot_[id_of(e)] = slot; }
+  std::uint32_t least_child(std::uint32_t slot) const;
+  void sift_up(std::uint32_t slot, Entry e);
+  void sift_down(std::uint32_t slot, Entry e);
 
   std::uint32_t size_ = 0;
-  LargeVector<Family> families_;      // the heap
-  LargeVector<std::uint32_t> place_;  // id -> its place
+  LargeVector<Family> families_;     // the heap
+  LargeVector<std::uint32_t> slot_;  // id -> its slot in the heap
 };
 
 }  // namespace viewcell

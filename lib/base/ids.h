@@ -9,9 +9,9 @@ namespace viewcell {
 
 /// A view cell of a grid, row-major: row * columns + column.
 enum class CellId : std::int32_t {};
-/// An object of a scene: its place in scene.json's "objects".
+/// An object of a scene: its index in scene.json's "objects".
 enum class ObjectId : std::int32_t {};
-/// A mesh of a scene: its place in scene.json's "meshes".
+/// A mesh of a scene: its index in scene.json's "meshes".
 enum class MeshId : std::int32_t {};
 /// A centre from which objects are captured: a hexagon of the grid widened by its rim
 /// (cells/grid.h says how they are numbered).

@@ -1,5 +1,5 @@
-// Vectors for arrays that are visited at random: where they are large, they lie in pages of 2 MB,
-// of which the processor remembers the places of a hundred times as many bytes.
+// Vectors for arrays that are visited at random: where they are large, they lie in huge pages of
+// 2 MB, so that the processor's address cache (TLB) covers a hundred times as many bytes.
 #pragma once
 
 #include <cstddef>

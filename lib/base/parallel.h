@@ -15,7 +15,7 @@ using Progress = std::function<void(std::size_t done, std::size_t total)>;
 int hardware_threads();
 
 /// Calls body(i) once for every i in [0, n), on `n_threads` threads (0: all). Iterations must be
-/// independent and write only to places of their own: then the result is the same for any number
+/// independent and write only to memory of their own: then the result is the same for any number
 /// of threads. When some throw, no further iteration starts and the exception of the lowest i that
 /// threw is rethrown here.
 void parallel_for(std::size_t n, int n_threads, const std::function<void(std::size_t)>& body,

@@ -130,16 +130,16 @@ fs::path capture_file_of(const fs::path& folder, CentreId centre) {
 }
 
 std::vector<ObjectId> objects_seen_from(const CellSet& cells, CentreId centre) {
-  const HexPlace place = place_of(cells.grid, centre);
+  const HexCoord hex = coord_of(cells.grid, centre);
   std::set<ObjectId> seen;
-  const auto add_outside_of = [&](HexPlace where) {
+  const auto add_outside_of = [&](HexCoord where) {
     const auto cell = cell_at(cells.grid, where);
     if (!cell) return;
     for (std::size_t o = 0; o < cells.n_objects; ++o)
       if (!is_inside(cells, *cell, ObjectId(o))) seen.insert(ObjectId(o));
   };
-  add_outside_of(place);
-  for (int face = 0; face < 6; ++face) add_outside_of(neighbour(place, face));
+  add_outside_of(hex);
+  for (int face = 0; face < 6; ++face) add_outside_of(neighbour(hex, face));
   return {seen.begin(), seen.end()};
 }
 
@@ -169,13 +169,13 @@ CentreCaptures::CentreCaptures(const fs::path& file, const CaptureSettings& sett
   for (std::size_t i = 0; i < file_.parts().size(); ++i) {
     int object = -1;
     if (std::sscanf(file_.parts()[i].name.c_str(), "object-%d", &object) == 1)
-      place_[ObjectId(object)] = i;
+      part_of_[ObjectId(object)] = i;
   }
 }
 
 std::optional<CaptureTile> CentreCaptures::read(ObjectId object) {
-  const auto found = place_.find(object);
-  if (found == place_.end()) return {};
+  const auto found = part_of_.find(object);
+  if (found == part_of_.end()) return {};
   const CapturePart part = file_.read_part(found->second);
   const CapturePartHeader& header = part.header;
   CaptureTile tile;

@@ -49,12 +49,12 @@ class CentreCaptures {
   CentreCaptures(const std::filesystem::path& file, const CaptureSettings& settings);
   /// Nothing when the centre does not capture the object (the eye is inside it or touches it).
   std::optional<CaptureTile> read(ObjectId object);
-  bool has(ObjectId object) const { return place_.contains(object); }
+  bool has(ObjectId object) const { return part_of_.contains(object); }
 
  private:
   std::filesystem::path path_;
   CaptureFile file_;
-  std::map<ObjectId, std::size_t> place_;  // object -> part
+  std::map<ObjectId, std::size_t> part_of_;  // object -> part
 };
 
 }  // namespace viewcell

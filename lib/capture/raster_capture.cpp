@@ -50,7 +50,7 @@ void set_uniform(const Gl& gl, const GlProgram& program, const char* name, const
   gl.ProgramUniform3fv(program.id(), program.uniform(name), 1, glm::value_ptr(v));
 }
 
-// Copies a block that was read back to its place in the tile.
+// Copies a block that was read back into the tile.
 void store(CaptureTile& tile, const Crop& block, const ImageRgbaFloat& pixels) {
   for (int y = 0; y < block.height_px; ++y)
     for (int x = 0; x < block.width_px; ++x) {

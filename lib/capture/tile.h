@@ -1,4 +1,4 @@
-// What a centre sees of one object.
+// A tile: what a centre sees of one object, the colour and depth of one crop.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Where a capture looks from, and the plane on which an object is seen.
+// The camera of a capture: an eye, and the image plane that one object is projected onto.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -31,7 +31,8 @@ struct CaptureView {
   }
 };
 
-/// A rectangle of pixels; may lie outside the source image on any side.
+/// A crop: the rectangle of pixels that holds one object; may reach out of the source image on any
+/// side.
 struct Crop {
   int x = 0, y = 0, width_px = 0, height_px = 0;
 };
@@ -54,7 +55,7 @@ struct CaptureDensity {
   int resolution_px = 1024;   ///< per width of a side face [Chen06 5.2.1]
   double far_scale = 2;       ///< times that density for far objects (1: as the paper)
   double far_distance = 300;  ///< an object is far when its nearest point is farther
-  /// Pixels that one object's crop may have: an object that the eye all but touches is seen more
+  /// Pixels that one object's crop may have: an object very close to the eye is sampled more
   /// coarsely, since the frames that it is captured for are drawn from farther away.
   int most_px = 1 << 20;
 };

@@ -35,11 +35,11 @@ std::vector<ObjectId> read_inside(const JsonCursor& cursor, std::size_t n_object
 }
 
 Json format_cell(const CellSet& cells, CellId cell) {
-  const HexPlace place = place_of(cells.grid, cell);
-  const glm::dvec2 centre = centre_of(cells.grid, place);
+  const HexCoord hex = coord_of(cells.grid, cell);
+  const glm::dvec2 centre = centre_of(cells.grid, hex);
   Json neighbours = Json::array(), inside = Json::array();
   for (int face = 0; face < 6; ++face) {
-    const auto next = cell_at(cells.grid, neighbour(place, face));
+    const auto next = cell_at(cells.grid, neighbour(hex, face));
     neighbours.push_back(next ? static_cast<int>(*next) : -1);
   }
   for (const ObjectId id : cells.inside[index(cell)]) inside.push_back(static_cast<int>(id));
@@ -67,7 +67,7 @@ CellSet make_cells(const Scene& scene, double size, const EyeHeight& eye_height)
   const auto footprints = make_footprints(scene);
   const double margin = near_corner_distance(cells.near);
   for (int i = 0; i < cells.grid.n_cells(); ++i) {
-    const ConvexPolygon hexagon = corners_of(cells.grid, place_of(cells.grid, CellId(i)));
+    const ConvexPolygon hexagon = corners_of(cells.grid, coord_of(cells.grid, CellId(i)));
     std::vector<ObjectId> inside;
     for (std::size_t o = 0; o < footprints.size(); ++o)
       if (distance(hexagon, footprints[o]) <= margin) inside.push_back(ObjectId(o));
@@ -84,13 +84,13 @@ bool is_inside(const CellSet& cells, CellId cell, ObjectId object) {
 std::vector<glm::dvec3> prism_of(const CellSet& cells, CellId cell) {
   std::vector<glm::dvec3> corners;
   for (const double z : {cells.eye_height.lo, cells.eye_height.hi})
-    for (const glm::dvec2& p : corners_of(cells.grid, place_of(cells.grid, cell)))
+    for (const glm::dvec2& p : corners_of(cells.grid, coord_of(cells.grid, cell)))
       corners.emplace_back(p, z);
   return corners;
 }
 
 glm::dvec3 eye_of(const CellSet& cells, CentreId centre) {
-  return {centre_of(cells.grid, place_of(cells.grid, centre)), cells.eye_height.middle()};
+  return {centre_of(cells.grid, coord_of(cells.grid, centre)), cells.eye_height.middle()};
 }
 
 glm::dvec3 eye_of(const CellSet& cells, CellId cell) {

@@ -28,8 +28,8 @@ struct CellSet {
 /// The convex hulls of the objects' footprints in the x-y plane, one an object.
 std::vector<ConvexPolygon> make_footprints(const Scene& scene);
 
-/// Lays the grid over the scene's area. An object is inside a cell when its footprint's hull meets
-/// the closed hexagon widened by the corner of the near plane (docs/formats.md, cells.json).
+/// Makes a grid that covers the scene's area. An object is inside a cell when its footprint's hull
+/// meets the closed hexagon widened by the corner of the near plane (docs/formats.md, cells.json).
 CellSet make_cells(const Scene& scene, double size, const EyeHeight& eye_height);
 
 bool is_inside(const CellSet& cells, CellId cell, ObjectId object);
@@ -51,7 +51,8 @@ void check_cells_of_scene(const CellSet& cells, const Scene& scene,
 
 /// Parses --cells: "all", "3,7,10-19", "@FILE" (such a list in a file) or "path:path.json" (the
 /// cells that a camera path passes through), then keeps slice i of n ("I/N", 1 <= I <= N; empty:
-/// all) by turns. Throws UsageError for a malformed list, InputError for a cell out of range.
+/// all): every n-th cell of the list, from the i-th on. Throws UsageError for a malformed list,
+/// InputError for a cell out of range.
 std::vector<CellId> select_cells(const CellSet& cells, const std::string& list,
                                  const std::string& slice = "");
 

@@ -40,13 +40,13 @@ HexGrid make_grid(const Area& area, double size) {
   return grid;
 }
 
-glm::dvec2 centre_of(const HexGrid& grid, HexPlace place) {
-  const double half = is_odd(place.column) ? 0.5 : 0.0;
-  return grid.origin + grid.size * glm::dvec2(1.5 * place.column, kSqrt3 * (place.row + half));
+glm::dvec2 centre_of(const HexGrid& grid, HexCoord hex) {
+  const double half = is_odd(hex.column) ? 0.5 : 0.0;
+  return grid.origin + grid.size * glm::dvec2(1.5 * hex.column, kSqrt3 * (hex.row + half));
 }
 
-ConvexPolygon corners_of(const HexGrid& grid, HexPlace place) {
-  const glm::dvec2 c = centre_of(grid, place);
+ConvexPolygon corners_of(const HexGrid& grid, HexCoord hex) {
+  const glm::dvec2 c = centre_of(grid, hex);
   const double s = grid.size, h = kSqrt3 / 2 * s;
   return {c + glm::dvec2(s, 0), c + glm::dvec2(s / 2, h),   c + glm::dvec2(-s / 2, h),
           c - glm::dvec2(s, 0), c + glm::dvec2(-s / 2, -h), c + glm::dvec2(s / 2, -h)};
@@ -55,10 +55,10 @@ ConvexPolygon corners_of(const HexGrid& grid, HexPlace place) {
 // A hexagon is its centre's Voronoi cell, so the nearest centre decides; it is among the columns
 // around the point's. The area's low edge is the lower border of row 0 in odd columns: there the
 // higher row must win.
-HexPlace place_at(const HexGrid& grid, const glm::dvec2& point) {
+HexCoord coord_at(const HexGrid& grid, const glm::dvec2& point) {
   const glm::dvec2 p = (point - grid.origin) / grid.size;
   const int column = static_cast<int>(std::floor(p.x / 1.5));
-  HexPlace best;
+  HexCoord best;
   double least = std::numeric_limits<double>::infinity();
   for (int c = column; c <= column + 1; ++c) {
     const int row = static_cast<int>(std::floor(p.y / kSqrt3 - (is_odd(c) ? 0.5 : 0.0)));
@@ -73,54 +73,54 @@ HexPlace place_at(const HexGrid& grid, const glm::dvec2& point) {
   return best;
 }
 
-HexPlace neighbour(HexPlace place, int face) {
-  const int up = is_odd(place.column) ? 1 : 0;  // an odd column's slanted neighbours stand higher
+HexCoord neighbour(HexCoord hex, int face) {
+  const int up = is_odd(hex.column) ? 1 : 0;  // an odd column's slanted neighbours stand higher
   switch (face) {
     case 0:
-      return {place.column + 1, place.row + up};
+      return {hex.column + 1, hex.row + up};
     case 1:
-      return {place.column, place.row + 1};
+      return {hex.column, hex.row + 1};
     case 2:
-      return {place.column - 1, place.row + up};
+      return {hex.column - 1, hex.row + up};
     case 3:
-      return {place.column - 1, place.row + up - 1};
+      return {hex.column - 1, hex.row + up - 1};
     case 4:
-      return {place.column, place.row - 1};
+      return {hex.column, hex.row - 1};
     case 5:
-      return {place.column + 1, place.row + up - 1};
+      return {hex.column + 1, hex.row + up - 1};
     default:
       throw_bug(__FILE__, __LINE__, "face in 0..5", face);
   }
 }
 
-HexPlace place_of(const HexGrid& grid, CellId cell) {
+HexCoord coord_of(const HexGrid& grid, CellId cell) {
   const int i = static_cast<int>(cell);
   return {i % grid.columns, i / grid.columns};
 }
 
-HexPlace place_of(const HexGrid& grid, CentreId centre) {
+HexCoord coord_of(const HexGrid& grid, CentreId centre) {
   const int i = static_cast<int>(centre);
   return {i % (grid.columns + 2) - 1, i / (grid.columns + 2) - 1};
 }
 
-std::optional<CellId> cell_at(const HexGrid& grid, HexPlace place) {
-  if (place.column < 0 || place.column >= grid.columns) return {};
-  if (place.row < 0 || place.row >= grid.rows) return {};
-  return CellId(place.row * grid.columns + place.column);
+std::optional<CellId> cell_at(const HexGrid& grid, HexCoord hex) {
+  if (hex.column < 0 || hex.column >= grid.columns) return {};
+  if (hex.row < 0 || hex.row >= grid.rows) return {};
+  return CellId(hex.row * grid.columns + hex.column);
 }
 
-std::optional<CentreId> centre_at(const HexGrid& grid, HexPlace place) {
-  if (place.column < -1 || place.column > grid.columns) return {};
-  if (place.row < -1 || place.row > grid.rows) return {};
-  return CentreId((place.row + 1) * (grid.columns + 2) + place.column + 1);
+std::optional<CentreId> centre_at(const HexGrid& grid, HexCoord hex) {
+  if (hex.column < -1 || hex.column > grid.columns) return {};
+  if (hex.row < -1 || hex.row > grid.rows) return {};
+  return CentreId((hex.row + 1) * (grid.columns + 2) + hex.column + 1);
 }
 
 std::array<CentreId, kViews> views_of(const HexGrid& grid, CellId cell) {
-  const HexPlace place = place_of(grid, cell);
+  const HexCoord hex = coord_of(grid, cell);
   std::array<CentreId, kViews> views{};
-  views[0] = *centre_at(grid, place);
+  views[0] = *centre_at(grid, hex);
   for (int face = 0; face < 6; ++face)
-    views[static_cast<std::size_t>(face) + 1] = *centre_at(grid, neighbour(place, face));
+    views[static_cast<std::size_t>(face) + 1] = *centre_at(grid, neighbour(hex, face));
   return views;
 }
 

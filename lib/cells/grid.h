@@ -28,30 +28,31 @@ struct HexGrid {
 /// The smallest grid whose cells cover the area.
 HexGrid make_grid(const Area& area, double size);
 
-/// A hexagon's place, also outside the grid: column, row.
-struct HexPlace {
+/// Column and row of a hexagon, which may be outside the grid.
+struct HexCoord {
   int column = 0;
   int row = 0;
-  bool operator==(const HexPlace&) const = default;
+  bool operator==(const HexCoord&) const = default;
 };
 
-glm::dvec2 centre_of(const HexGrid& grid, HexPlace place);
+glm::dvec2 centre_of(const HexGrid& grid, HexCoord hex);
 /// Six corners, counter-clockwise from +x.
-ConvexPolygon corners_of(const HexGrid& grid, HexPlace place);
+ConvexPolygon corners_of(const HexGrid& grid, HexCoord hex);
 /// The one hexagon that the point belongs to: the nearest centre; on a border the lowest column,
 /// then the highest row, so that an area's edges belong to cells of its grid.
-HexPlace place_at(const HexGrid& grid, const glm::dvec2& point);
+HexCoord coord_at(const HexGrid& grid, const glm::dvec2& point);
 /// Across side face k, whose outward normal is at 30 + 60 k degrees, k = 0..5.
-HexPlace neighbour(HexPlace place, int face);
+HexCoord neighbour(HexCoord hex, int face);
 
-HexPlace place_of(const HexGrid& grid, CellId cell);
-HexPlace place_of(const HexGrid& grid, CentreId centre);
-/// Nothing when the place is outside the grid (for a centre: outside the widened grid).
-std::optional<CellId> cell_at(const HexGrid& grid, HexPlace place);
-std::optional<CentreId> centre_at(const HexGrid& grid, HexPlace place);
+HexCoord coord_of(const HexGrid& grid, CellId cell);
+HexCoord coord_of(const HexGrid& grid, CentreId centre);
+/// Nothing when the hexagon is outside the grid (for a centre: outside the widened grid).
+std::optional<CellId> cell_at(const HexGrid& grid, HexCoord hex);
+std::optional<CentreId> centre_at(const HexGrid& grid, HexCoord hex);
 
-/// The seven centres of a cell's closed neighbourhood: its own, then across faces 0..5. Bit k of a
-/// view mask is view k of this order.
+/// A centre is a hexagon's middle, from which the scene is captured (CentreId). The views of a cell
+/// are the captures from the seven centres of its closed neighbourhood: its own, then across faces
+/// 0..5. Bit k of a view mask is view k of this order.
 inline constexpr int kViews = 7;
 std::array<CentreId, kViews> views_of(const HexGrid& grid, CellId cell);
 

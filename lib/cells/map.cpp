@@ -33,7 +33,7 @@ void draw_cells(const CellSet& cells, const std::vector<double>& values, std::st
   svg += "<g stroke='#9ab' stroke-width='1'>\n";
   for (int i = 0; i < cells.grid.n_cells(); ++i) {
     const double value = values[static_cast<std::size_t>(i)];
-    svg += "<polygon points='" + points(corners_of(cells.grid, place_of(cells.grid, CellId(i)))) +
+    svg += "<polygon points='" + points(corners_of(cells.grid, coord_of(cells.grid, CellId(i)))) +
            "' fill='" + color_of(std::clamp(value / most, 0.0, 1.0)) + "'><title>cell " +
            std::to_string(i) + ": " + format("%g", value) + "</title></polygon>\n";
   }

@@ -52,7 +52,7 @@ void add_list(const CellSet& cells, const std::string& list, std::set<int>& out)
 void add_path(const CellSet& cells, const std::string& file, std::set<int>& out) {
   const CameraPath path = read_path(file);
   const auto add = [&](const glm::dvec3& eye) {
-    if (const auto cell = cell_at(cells.grid, place_at(cells.grid, glm::dvec2(eye))))
+    if (const auto cell = cell_at(cells.grid, coord_at(cells.grid, glm::dvec2(eye))))
       out.insert(static_cast<int>(*cell));
   };
   add(path.samples.front().eye);

@@ -12,18 +12,18 @@ std::string index_map_glsl() {
   return "const float jump_texels = " + std::to_string(kJumpTexels) + ";\n" + R"(
 layout(binding = 1) uniform sampler2D index_map;
 
-struct Place {
+struct IndexedTexcoords {
   vec2 uv, dx, dy;
 };
 
-// The place that a texel holds, in texels of the map; any texel: the map is periodic.
+// The coordinates that a texel holds, in texels of the map; any texel: the map is periodic.
 vec2 map_at(ivec2 texel) {
   ivec2 size = textureSize(index_map, 0);
   ivec2 wrapped = (texel % size + size) % size;
   return texelFetch(index_map, wrapped, 0).xy * vec2(size) + vec2(texel - wrapped);
 }
 
-// Four places in a line: does the step in the middle leave what the steps beside it make plausible?
+// Four coordinates in a line: does the middle step leave the range of its neighbours' steps?
 bool jumps(vec2 a, vec2 b, vec2 c, vec2 d) {
   vec2 before = b - a, step_here = c - b, after = d - c;
   vec2 slack = jump_texels + 0.5 * max(abs(before), abs(after));
@@ -31,7 +31,7 @@ bool jumps(vec2 a, vec2 b, vec2 c, vec2 d) {
   return any(lessThan(step_here, lo)) || any(greaterThan(step_here, hi));
 }
 
-Place indexed_place(vec2 uv) {
+IndexedTexcoords indexed_texcoords(vec2 uv) {
   vec2 size = vec2(textureSize(index_map, 0));
   vec2 uv_dx = dFdx(uv), uv_dy = dFdy(uv);
   vec2 at = uv * size - 0.5;
@@ -48,12 +48,13 @@ Place indexed_place(vec2 uv) {
   if (jumps(r0[0], a, b, r0[3]) || jumps(r1[0], c, d, r1[3]) ||
       jumps(below_a, a, c, above_c) || jumps(below_b, b, d, above_d)) {
     vec2 nearest = f.x < 0.5 ? (f.y < 0.5 ? a : c) : (f.y < 0.5 ? b : d);
-    return Place(nearest / size, uv_dx, uv_dy);
+    return IndexedTexcoords(nearest / size, uv_dx, uv_dy);
   }
-  vec2 place = mix(mix(a, b, f.x), mix(c, d, f.x), f.y);
-  // A step of a texel in the map, in texels of places; so in uv over uv, but for the sides' ratio.
+  vec2 mixed = mix(mix(a, b, f.x), mix(c, d, f.x), f.y);
+  // Change of the coordinates, in texels, over one texel of the map.
   mat2 jacobian = mat2(mix(b - a, d - c, f.y), mix(c - a, d - b, f.x));
-  return Place(place / size, jacobian * (uv_dx * size) / size, jacobian * (uv_dy * size) / size);
+  return IndexedTexcoords(mixed / size, jacobian * (uv_dx * size) / size,
+                          jacobian * (uv_dy * size) / size);
 }
 )";
 }

@@ -20,7 +20,7 @@ struct MeshVertex {
 };
 static_assert(sizeof(MeshVertex) == 36);
 
-// What a vertex has more with a normal map.
+// Further vertex attributes, with a normal map.
 struct MappedVertex {
   glm::vec4 tangent;  // frame space; w: the side of the bitangent
   glm::vec2 uv;
@@ -52,7 +52,7 @@ void main() {
 }
 )";
 
-// surface_color() is the one place that says how a fragment comes by its colour.
+// surface_color() alone decides a fragment's colour.
 constexpr const char* kTextureColor = R"(
 layout(binding = 0) uniform sampler2D base_texture;
 vec3 surface_color() { return texture(base_texture, surface.xy).rgb; }
@@ -60,8 +60,8 @@ vec3 surface_color() { return texture(base_texture, surface.xy).rgb; }
 constexpr const char* kIndexedColor = R"(
 layout(binding = 0) uniform sampler2D base_texture;
 vec3 surface_color() {
-  Place place = indexed_place(surface.xy);
-  return textureGrad(base_texture, place.uv, place.dx, place.dy).rgb;
+  IndexedTexcoords found = indexed_texcoords(surface.xy);
+  return textureGrad(base_texture, found.uv, found.dx, found.dy).rgb;
 }
 )";
 constexpr const char* kVertexColor = R"(
@@ -87,8 +87,8 @@ vec3 surface_normal() { return mapped_normal(texture(normal_map, uv).xyz); }
 )";
 constexpr const char* kIndexedNormal = R"(
 vec3 surface_normal() {
-  Place place = indexed_place(uv);
-  return mapped_normal(textureGrad(normal_map, place.uv, place.dx, place.dy).xyz);
+  IndexedTexcoords found = indexed_texcoords(uv);
+  return mapped_normal(textureGrad(normal_map, found.uv, found.dx, found.dy).xyz);
 }
 )";
 
@@ -119,7 +119,7 @@ constexpr const char* kNoWireColor = R"(
 vec3 wire_color(vec3 color) { return color; }
 )";
 
-// What there is to look up.
+// Which textures there are.
 struct Surface {
   bool has_texture, has_normal_map, is_indexed;
 };

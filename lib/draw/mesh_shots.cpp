@@ -87,7 +87,7 @@ std::vector<MeshShot> write_mesh_shots(const MeshRenderer& renderer, const MeshS
   std::vector<MeshShot> shots;
   for (const Camera& view : make_views(options.n_views))
     shots.push_back({picture_name(shots.size(), options.n_views), view});
-  // One thread talks to GL; so many pictures are drawn, then encoded side by side.
+  // One thread talks to GL; so this many pictures are drawn, then encoded in parallel.
   const auto n_at_once =
       static_cast<std::size_t>(options.n_threads > 0 ? options.n_threads : hardware_threads());
   std::vector<ImageRgba8> tiles(shots.size());

@@ -17,7 +17,7 @@ static_assert(kBlock * kBlock == RayPacket::kSize);
 constexpr int kTile = 32;  // pixels a side; one task
 // Linear [0, 1] to 8-bit sRGB by table: 0.1 of a level off where the curve is steepest.
 constexpr int kTableSize = 1 << 15;
-// A ray that meets the back of a surface goes on from there. After so many backs in a row the last
+// A ray that hits a back face continues from there. After this many back faces in a row the last
 // one is shown.
 constexpr int kMostBackFaces = 64;
 

@@ -1,4 +1,5 @@
-// Mode `raycast`: primary rays with Embree, the honest rival of any software rasteriser.
+// Mode `raycast`: primary rays with Embree, the baseline that software rasterisers are compared
+// with.
 #pragma once
 
 #include <memory>
@@ -10,7 +11,7 @@
 namespace viewcell {
 
 /// One bounding hierarchy a mesh, instanced by the objects; packets of 16 rays, one ray a pixel
-/// centre, tiles shared out over all threads. Shades as the rasteriser does: interpolated vertex
+/// centre, tiles distributed over all threads. Shades as the rasteriser does: interpolated vertex
 /// normals, back faces of single-sided materials not seen, objects before ground, alpha 255 on
 /// objects and 0 elsewhere.
 class RayCaster {

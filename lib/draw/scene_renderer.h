@@ -29,8 +29,8 @@ class SceneRenderer {
   SceneRenderer(const Gl& gl, const Scene& scene, const std::vector<MeshLevels>& levels);
 
   /// Binds and clears the target and draws the ground. The ground neither tests nor writes depth:
-  /// the eye is above it, so what stands on it wins, and what pokes through it shows alike in every
-  /// mode.
+  /// the eye is above it, so objects cover it, and the parts of objects that are below it look the
+  /// same in every mode.
   void draw_background(const GlFramebuffer& target, const glm::dmat4& clip_from_world) const;
   /// Into the bound framebuffer.
   void draw_objects(const glm::dmat4& clip_from_world, std::span<const ObjectDraw> draws,
@@ -82,7 +82,7 @@ class SceneRenderer {
   std::array<float, 4> sky_;
 };
 
-/// The same picture shifted by so many pixels (right, down): for the yardstick.
+/// The same picture shifted by so many pixels (right, down): for the yardstick (play/timeline.h).
 glm::dmat4 shift_pixels(const glm::dmat4& clip_from_world, const glm::dvec2& shift_px, int width_px,
                         int height_px);
 

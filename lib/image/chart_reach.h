@@ -1,5 +1,5 @@
-// How far around the charts of a texture anything reaches, in texels. One thing decides it: a
-// bilinear fetch reads texels less than kFetchReach from where it is made, in x and in y.
+// How many texels around the charts of a texture matter. All follows from one number: a bilinear
+// fetch reads texels less than kFetchReach from where it is made, in x and in y.
 #pragma once
 
 namespace viewcell {
@@ -7,7 +7,7 @@ namespace viewcell {
 inline constexpr int kFetchReach = 1;
 
 /// In x and in y from texels whose centres lie in a chart: what fetches at its border may read. A
-/// place at the border is less than kFetchReach from such a texel, and reads as far beyond. Charts
+/// point at the border is less than kFetchReach from such a texel, and reads as far beyond. Charts
 /// with fewer texels between them than this are crowded.
 inline constexpr int kGutterReach = 2 * kFetchReach;
 
@@ -16,7 +16,8 @@ inline constexpr int kGutterReach = 2 * kFetchReach;
 inline constexpr float kGutter = 3;
 
 /// Straight, where charts are continued by their nearest texels, so that fetches through an
-/// indexing map find nothing else: the map of a gutter holds places up to kGutter off its chart.
+/// indexing map find nothing else: the map of a gutter holds texture coordinates up to kGutter off
+/// its chart.
 inline constexpr int kContinuedReach = static_cast<int>(kGutter) + kFetchReach;
 
 /// Straight, from a triangle, not from texels in it: fetches at its points read texels less than

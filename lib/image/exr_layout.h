@@ -1,4 +1,4 @@
-// The outside of an EXR file, looked at before a decoder is.
+// The headers and chunk tables of an EXR file, checked before a decoder reads it.
 #pragma once
 
 #include <filesystem>

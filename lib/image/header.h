@@ -1,4 +1,4 @@
-// What a picture's first bytes say, before any decoder is let at it.
+// What a picture's first bytes say, checked before any decoder reads it.
 #pragma once
 
 #include <string>
@@ -6,7 +6,7 @@
 
 namespace viewcell {
 
-/// The pictures that are read, told apart by their first bytes, never by the file's name.
+/// The pictures that are read, recognised by their first bytes, never by the file's name.
 enum class ImageFormat { png, jpeg, openexr, tiff, webp };
 
 /// The largest picture that is read.

@@ -9,10 +9,10 @@
 
 namespace viewcell {
 
-/// Reads a PNG, JPEG, EXR, TIFF or WebP, told by its first bytes ("-": standard input), as 8-bit
-/// sRGB with straight alpha. Gray and gray with alpha are expanded; without alpha it is 255. Float
-/// and half samples are taken as linear: clamped to [0, 1], encoded as sRGB, their alpha as it is.
-/// An EXR gives its data window. The first picture of several.
+/// Reads a PNG, JPEG, EXR, TIFF or WebP, recognised by its first bytes ("-": standard input), as
+/// 8-bit sRGB with straight alpha. Gray and gray with alpha are expanded; without alpha it is 255.
+/// Float and half samples are taken as linear: clamped to [0, 1], encoded as sRGB, their alpha as
+/// it is. An EXR gives its data window. The first picture of several.
 ///
 /// The size is checked before pixels are read (image/header.h). Throws InputError naming the file.
 /// Safe from many threads at once. Known limit: OpenImageIO hands out a WebP's colour multiplied by
@@ -24,7 +24,7 @@ ImageRgba8 decode_image_rgba8(std::string_view bytes, const std::string& name);
 
 enum class PngAlpha {
   keep,
-  drop,  ///< write RGB only: for pictures to look at, whose ground would show as transparent
+  drop,  ///< write RGB only: for pictures for people, whose background would show as transparent
 };
 
 /// A PNG's bytes. The same pixels give the same bytes: no date, no software. Throws MachineError.

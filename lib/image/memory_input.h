@@ -1,4 +1,4 @@
-// A picture in memory, opened by OpenImageIO and looked at before a pixel of it is decoded. Private
+// A picture in memory, opened by OpenImageIO and checked before a pixel of it is decoded. Private
 // to this room's readers.
 #pragma once
 

@@ -1,5 +1,5 @@
 // Who owns the texels of a texture: triangles drawn into an image of owners. An owner is a number
-// from 1 on, of a triangle or of a chart; 0 is nobody.
+// from 1 on, of a triangle or of a chart; 0 is none.
 #pragma once
 
 #include <algorithm>
@@ -25,7 +25,7 @@ void claim_texels(const TexelTriangleOf<Real>& triangle, Owner owner, Image<Owne
   });
 }
 
-/// What is the owner's of a triangle's texels becomes nobody's.
+/// Texels of the triangle that are the owner's get no owner.
 template <typename Owner, typename Real>
 void release_texels(const TexelTriangleOf<Real>& triangle, Owner owner, Image<Owner>& owners) {
   for_each_span(triangle, owners.width_px, owners.height_px, [&](int x0, int x1, int y) {
@@ -52,7 +52,7 @@ void widen_owners(Image<Owner>& owners, int reach_px, Owner inside = 0) {
   }
 }
 
-/// Per texel 1 where somebody owns it, else 0.
+/// Per texel 1 where it has an owner, else 0.
 template <typename Owner>
 Image<std::uint8_t> mark_owned(const Image<Owner>& owners) {
   Image<std::uint8_t> out(owners.width_px, owners.height_px);

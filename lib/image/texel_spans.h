@@ -10,12 +10,12 @@
 
 namespace viewcell {
 
-/// Texture coordinates as places in an image: texel centres at whole numbers, rows down, v up.
+/// Texture coordinates as positions in an image: texel centres at whole numbers, rows down, v up.
 inline glm::dvec2 to_texels(const glm::vec2& uv, int width_px, int height_px) {
   return {uv.x * double(width_px) - 0.5, (1 - double(uv.y)) * height_px - 0.5};
 }
 
-/// Three such places, of float or double.
+/// Three such positions, of float or double.
 template <typename Real>
 using TexelTriangleOf = std::array<glm::vec<2, Real>, 3>;
 using TexelTriangle = TexelTriangleOf<float>;
@@ -77,8 +77,8 @@ void for_each_span(const TexelTriangleOf<Real>& triangle, int width_px, int heig
   });
 }
 
-/// The four texels around a place, in the order (x0, y0), (x1, y0), (x0, y1), (x1, y1), and their
-/// bilinear weights, which sum to 1. Beyond its rim an image goes on as it ends.
+/// The four texels around a position, in the order (x0, y0), (x1, y0), (x0, y1), (x1, y1), and
+/// their bilinear weights, which sum to 1. Beyond its rim an image goes on as it ends.
 struct BilinearTexels {
   std::array<std::size_t, 4> offsets;
   std::array<float, 4> weights;

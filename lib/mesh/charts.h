@@ -14,9 +14,9 @@ namespace viewcell {
 /// of 14 textured test models): of a bow tie, |><|, `edge` makes two charts and `corner` one.
 enum class ChartLink {
   /// A chart: connected across edges, both texture vertices shared. What a picture shows as one
-  /// piece, and what overlaps are told of.
+  /// piece; overlaps are reported between these.
   edge,
-  /// A joined chart: connected by any texture vertex. What moves together when vertices do: a
+  /// A joined chart: connected by any texture vertex. What moves together when a vertex moves: a
   /// collapse at the waist moves both halves, and either may be sampled there.
   corner
 };

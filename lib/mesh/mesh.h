@@ -29,7 +29,7 @@ struct TriMesh {
   std::vector<glm::vec3> colors;   ///< linear, [0, 1], per vertex
   std::vector<Triangle> triangles;
   std::vector<glm::vec2> texcoords;     ///< per corner
-  std::vector<std::int32_t> materials;  ///< per triangle: place in material_names; or empty
+  std::vector<std::int32_t> materials;  ///< per triangle: index into material_names; or empty
   std::vector<std::string> material_names;
 };
 

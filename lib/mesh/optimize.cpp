@@ -51,9 +51,9 @@ std::vector<std::uint32_t> make_fetch_order(const std::vector<Triangle>& triangl
                                             std::size_t n_vertices) {
   UsedVertices used = find_used_vertices(triangles, n_vertices, VertexOrder::first_use);
   auto n = static_cast<std::uint32_t>(used.size());
-  for (std::uint32_t& id : used.place)
+  for (std::uint32_t& id : used.new_index)
     if (id == kUnusedVertex) id = n++;
-  return std::move(used.place);
+  return std::move(used.new_index);
 }
 
 std::vector<DetailLevel> build_meshopt_levels(const TriMesh& mesh, const DetailOptions& options) {

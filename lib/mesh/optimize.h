@@ -1,5 +1,5 @@
-// Orders, levels of detail and clusters of a mesh as the graphics card likes them: the one file
-// that wraps meshoptimizer.
+// Orders, levels of detail and clusters of a mesh for fast drawing on the graphics card: the one
+// file that wraps meshoptimizer.
 #pragma once
 
 #include <cstddef>
@@ -33,10 +33,10 @@ struct DetailOptions {
 };
 
 /// Level 0 is the mesh itself with error 0; each further one has fewer triangles, and no smaller
-/// error, than the one before. Ends where the simplifier no longer gets on (it keeps the topology,
-/// so non-manifold parts stop it). Every level starts from the original, so its error is against
-/// that. The error is an estimate by quadrics, not a bound.
-/// [Garland and Heckbert 1997], by meshopt_simplify.
+/// error, than the one before. Ends where the simplifier makes no more progress (it keeps the
+/// topology, so non-manifold parts stop it). Every level starts from the original, so its error is
+/// against that. The error is an estimate by quadrics, not a bound. [Garland and Heckbert 1997], by
+/// meshopt_simplify.
 std::vector<DetailLevel> build_meshopt_levels(const TriMesh& mesh,
                                               const DetailOptions& options = {});
 

@@ -159,8 +159,8 @@ std::vector<std::uint64_t> count_bins(const std::vector<double>& distances, doub
   std::vector<std::uint64_t> bins(n_bins, 0);
   for (const double d : distances) {
     if (d > most) continue;
-    const double place = most > 0 ? d / most * static_cast<double>(n_bins) : 0;
-    ++bins[std::min(static_cast<std::size_t>(place), n_bins - 1)];
+    const double bin = most > 0 ? d / most * static_cast<double>(n_bins) : 0;
+    ++bins[std::min(static_cast<std::size_t>(bin), n_bins - 1)];
   }
   return bins;
 }

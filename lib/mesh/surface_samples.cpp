@@ -115,21 +115,21 @@ void sample_edges(const SurfaceSamples& samples, const TriMesh& mesh, std::size_
   }
 }
 
-// The area is cut into n equal parts, triangle after triangle; sample i is at the same place of
-// each part, so a triangle gets its share rounded down or up. Where in the triangle: the next point
-// of the R2 sequence.
+// The area is cut into n equal parts, triangle after triangle; sample i is at the same fraction
+// of each part, so a triangle gets its share rounded down or up. Where in the triangle: the next
+// point of the R2 sequence.
 void sample_faces(const SurfaceSamples& samples, const TriMesh& mesh, std::size_t first,
                   std::span<glm::dvec3> points) {
   const std::vector<double>& before = samples.area_before;
   const double part = samples.area() / static_cast<double>(samples.n_face_samples);
   const double last = std::nextafter(samples.area(), 0.0);
-  const auto place = [&](std::size_t i) {
+  const auto area_at = [&](std::size_t i) {
     return std::min((static_cast<double>(i) + samples.stratum_shift) * part, last);
   };
-  auto f = static_cast<std::size_t>(std::upper_bound(before.begin(), before.end(), place(first)) -
+  auto f = static_cast<std::size_t>(std::upper_bound(before.begin(), before.end(), area_at(first)) -
                                     before.begin() - 1);
   for (std::size_t i = 0; i < points.size(); ++i) {
-    while (before[f + 1] <= place(first + i)) ++f;
+    while (before[f + 1] <= area_at(first + i)) ++f;
     const Triangle& t = mesh.triangles[f];
     const double x = unit_fraction(samples.shift[0] + (first + i + 1) * kStep[0]);
     const double y = unit_fraction(samples.shift[1] + (first + i + 1) * kStep[1]);

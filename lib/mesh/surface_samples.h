@@ -10,7 +10,7 @@
 
 namespace viewcell {
 
-/// Which points to take; the points themselves are made when asked for, in any order.
+/// Describes the sample points; the points themselves are computed on demand, in any order.
 struct SurfaceSamples {
   std::vector<std::uint32_t> vertices;              ///< those that a triangle uses, ascending
   std::vector<std::array<std::uint32_t, 2>> edges;  ///< each pair of vertices once, ascending

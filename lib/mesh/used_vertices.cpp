@@ -12,21 +12,21 @@ std::vector<Triangle> UsedVertices::renumber(std::span<const Triangle> triangles
 UsedVertices find_used_vertices(std::span<const Triangle> triangles, std::size_t n_vertices,
                                 VertexOrder order) {
   UsedVertices out;
-  out.place.assign(n_vertices, kUnusedVertex);
-  const auto take = [&](std::uint32_t v) {
-    out.place[v] = static_cast<std::uint32_t>(out.source.size());
+  out.new_index.assign(n_vertices, kUnusedVertex);
+  const auto number = [&](std::uint32_t v) {
+    out.new_index[v] = static_cast<std::uint32_t>(out.source.size());
     out.source.push_back(v);
   };
   for (const Triangle& t : triangles)
     for (const std::uint32_t v : t) {
-      if (out.place[v] != kUnusedVertex) continue;
+      if (out.new_index[v] != kUnusedVertex) continue;
       if (order == VertexOrder::first_use)
-        take(v);
+        number(v);
       else
-        out.place[v] = 0;
+        out.new_index[v] = 0;
     }
   for (std::uint32_t v = 0; order == VertexOrder::old && v < n_vertices; ++v)
-    if (out.place[v] != kUnusedVertex) take(v);
+    if (out.new_index[v] != kUnusedVertex) number(v);
   return out;
 }
 

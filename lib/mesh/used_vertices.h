@@ -9,17 +9,19 @@
 
 namespace viewcell {
 
-/// Of the new numbers: as the old ones, or as triangle after triangle first uses them.
+/// The order of the new indices: that of the old ones, or that of first use by the triangles.
 enum class VertexOrder { old, first_use };
 
 inline constexpr std::uint32_t kUnusedVertex = 0xffffffffu;
 
 struct UsedVertices {
-  std::vector<std::uint32_t> source;  ///< new number -> old
-  std::vector<std::uint32_t> place;   ///< old number -> new, or kUnusedVertex
+  std::vector<std::uint32_t> source;     ///< new index -> old
+  std::vector<std::uint32_t> new_index;  ///< old index -> new, or kUnusedVertex
 
   std::size_t size() const { return source.size(); }
-  Triangle renumber(const Triangle& t) const { return {place[t[0]], place[t[1]], place[t[2]]}; }
+  Triangle renumber(const Triangle& t) const {
+    return {new_index[t[0]], new_index[t[1]], new_index[t[2]]};
+  }
   std::vector<Triangle> renumber(std::span<const Triangle> triangles) const;
   /// The used ones' values, in their new order; of an attribute that is not there, none.
   template <typename Value>

@@ -35,9 +35,9 @@ CoverageSamples sample_surface(const TriMesh& mesh, int n) {
   Random random(static_cast<std::uint64_t>(n));
   for (int i = 0; i < n; ++i) {  // one in each n-th of the area
     const double at = area * (i + random.uniform()) / n;
-    const auto place = std::lower_bound(area_up_to.begin(), area_up_to.end(), at);
+    const auto found = std::lower_bound(area_up_to.begin(), area_up_to.end(), at);
     const std::size_t t =
-        std::min(static_cast<std::size_t>(place - area_up_to.begin()), mesh.triangles.size() - 1);
+        std::min(static_cast<std::size_t>(found - area_up_to.begin()), mesh.triangles.size() - 1);
     const Triangle& v = mesh.triangles[t];
     const auto r = static_cast<float>(std::sqrt(random.uniform()));
     const auto s = static_cast<float>(random.uniform());

@@ -24,7 +24,7 @@ struct Grid {
   double cell = 1;
   float floor_z = 0;
   glm::ivec3 n_blocks{0};
-  std::vector<std::int32_t> slot;      // block -> place in values and views; kNone: far
+  std::vector<std::int32_t> slot;      // block -> index into values and views; kNone: far
   std::vector<std::int8_t> is_inside;  // far block -> its sign
   std::vector<std::array<float, kNodes>> values;
   std::vector<FigureView> views;

@@ -65,7 +65,7 @@ Panoramas look_around(const Judge& judge, const glm::dvec3& eye) {
 }
 
 // The objects, ascending, whose footprints meet the closed cell.
-std::vector<std::size_t> objects_in(const Ground& ground, const HexGrid& grid, HexPlace cell) {
+std::vector<std::size_t> objects_in(const Ground& ground, const HexGrid& grid, HexCoord cell) {
   const ConvexPolygon corners = corners_of(grid, cell);
   const glm::dvec2 centre = centre_of(grid, cell);
   std::vector<std::size_t> inside;
@@ -83,7 +83,7 @@ std::vector<std::size_t> objects_in(const Ground& ground, const HexGrid& grid, H
 struct Moment {
   glm::dvec3 eye{0};
   double heading_rad = 0, yaw_rad = 0;
-  HexPlace cell;
+  HexCoord cell;
   std::vector<std::size_t> inside;  // the cell's objects
   std::array<double, kParkSizes> coverage{};
   std::array<double, kParkSizes> triangles_inside{};  // in view
@@ -104,7 +104,7 @@ std::vector<Moment> place_moments(const Ground& ground, const HexGrid& grid,
     Moment moment;
     moment.eye = glm::dvec3(route[i], eye_height(kSampleLength * static_cast<double>(i), phase));
     moment.heading_rad = std::atan2(way.y, way.x);
-    moment.cell = place_at(grid, route[i]);
+    moment.cell = coord_at(grid, route[i]);
     const bool is_same = !moments.empty() && moments.back().cell == moment.cell;
     moment.inside = is_same ? moments.back().inside : objects_in(ground, grid, moment.cell);
     moments.push_back(std::move(moment));
@@ -204,7 +204,7 @@ bool is_good(const WalkReport& r) {
          r.n_cells >= 15 && r.large_in_view_s >= 2.5;
 }
 
-// What tells good walks apart: statues as near as on the paper's path, not nearer, and few
+// Ranks good walks: statues as near as on the paper's path, not nearer, and few
 // triangles of objects inside the eye's cell, which every frame there must draw.
 double cost_of(const WalkReport& r) {
   return std::abs(r.coverage[0] / kWantedCoverage[0] - 1) +

@@ -1,4 +1,4 @@
-// Where a walker looks.
+// The direction in which a walker looks.
 #pragma once
 
 #include <span>

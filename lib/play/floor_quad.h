@@ -1,11 +1,13 @@
-// The floor under every frame time: a clear and one full-screen quad with a bilinear texture.
+// A lower bound of the frame time: clearing the frame and drawing one full-screen textured quad.
 #pragma once
 
 #include "gl/framebuffer.h"
 
 namespace viewcell {
 
-/// No image-based renderer on this machine can be faster.
+/// The least work that an image-based renderer does for a frame, drawn to be timed: none can be
+/// faster on the same machine. Reported as "floor"; unrelated to the ground plane
+/// (draw/ground.h).
 class FloorQuad {
  public:
   /// A texture of the frame's size, filled with a pattern. gl must outlive this.

@@ -7,7 +7,7 @@
 namespace viewcell {
 namespace {
 
-// An angle of nothing at all would take all the weight; a thousandth of a degree does.
+// Lower bound of an angle, so that weight 1 / angle stays finite.
 constexpr double kLeastAngle_rad = 2e-5;
 
 // Of the two views' weights about a half.
@@ -74,7 +74,7 @@ std::uint8_t find_visible_windows(const HexGrid& grid, CellId cell, const Camera
   const double half = half_azimuth_rad(camera);
   if (half >= glm::radians(90.0)) return 0x3f;
   const glm::dvec2 eye(camera.eye), ahead = glm::normalize(glm::dvec2(camera.forward));
-  const ConvexPolygon corners = corners_of(grid, place_of(grid, cell));
+  const ConvexPolygon corners = corners_of(grid, coord_of(grid, cell));
   unsigned visible = 0;
   for (std::size_t face = 0; face < 6; ++face) {
     // Face k joins corners k and k + 1. It is out of sight when both lie outside the same side of

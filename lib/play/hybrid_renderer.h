@@ -18,8 +18,8 @@ glm::vec3 kind_color(Representation kind);
 struct HybridOptions {
   /// A texel counts for a fragment when their depths differ by at most this share of the object's
   /// depth range (others are texels of another layer), or by so little that the eye and the view
-  /// see the two within shift_px texels of each other: what is far may lie wrong in depth without
-  /// anyone seeing it.
+  /// see the two within shift_px texels of each other: errors of far depths are not
+  /// visible.
   float depth_tolerance = 0.08f;
   float shift_px = 1;
 };

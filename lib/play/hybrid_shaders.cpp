@@ -32,7 +32,7 @@ std::string varyings(const std::string& direction, int n_views) {
 }
 
 // Four texels around the point, weighted bilinearly and by how near their depth is to the
-// fragment's own: with x = difference / tolerance, 1 / (1 + x^8), all but a step. Where no texel is
+// fragment's own: with x = difference / tolerance, 1 / (1 + x^8), nearly a step. Where no texel is
 // within the tolerance the nearest in depth wins, unless all are far off (make_textured_main).
 // Returns colour times weight, and the weight.
 const char* kGuardedFetch = R"(
@@ -61,7 +61,7 @@ const char* kLitMain = R"(
 void main() { color = vec4(lit, 254.0 / 255.0); }
 )";
 
-// Below a weight of 0.02, at about 1.6 tolerances from every texel, the views say nothing of the
+// Below a weight of 0.02, at about 1.6 tolerances from every texel, no view shows the
 // fragment.
 std::string make_textured_main(int n_views) {
   std::string sum = "guarded_fetch(stq0, regions[0], codes[0])";

@@ -1,5 +1,5 @@
-// The modes of play: all that differs between them, in one table. A mode more is a row more, and
-// its number here.
+// The modes of play: all that differs between them, in one table. A new mode is a new row
+// there and a new value here.
 #pragma once
 
 #include <span>

@@ -40,12 +40,12 @@ class Player {
   DrawnFrame draw(Mode mode, const Camera& camera);
   /// The picture that draw() made last. Not part of its time.
   ImageRgba8 read(Mode mode) const;
-  /// The frustum mode's picture moved by some pixels, for the yardstick.
+  /// The frustum mode's picture moved by some pixels, for the yardstick (play/timeline.h).
   ImageRgba8 draw_shifted(const Camera& camera, const glm::dvec2& shift_px);
   /// Hybrid, outside objects in colours of their kind.
   ImageRgba8 draw_kinds(const Camera& camera, HybridStyle style);
 
-  /// A clear and a full-screen textured quad: the floor under every time.
+  /// A clear and a full-screen textured quad: a lower bound of frame times (play/floor_quad.h).
   void draw_floor();
 
   const PlayerOptions& options() const { return options_; }

@@ -6,9 +6,9 @@ namespace viewcell {
 namespace {
 
 // Bit k: a corner of the box lies on or beyond the line of side face k. What an eye in the cell
-// sees through face k lies there, so the test loses nothing.
+// sees through face k lies there, so the test is conservative.
 std::uint8_t find_windows(const CellSet& cells, CellId cell, const BundleObject& o) {
-  const glm::dvec2 centre = centre_of(cells.grid, place_of(cells.grid, cell));
+  const glm::dvec2 centre = centre_of(cells.grid, coord_of(cells.grid, cell));
   const double apothem = std::sqrt(0.75) * cells.grid.size;
   unsigned windows = 0;
   for (int face = 0; face < 6; ++face) {

@@ -9,7 +9,7 @@
 namespace viewcell {
 namespace {
 
-// The prefetch list is made anew when the eye has moved by this share of a cell's size, or turned
+// The prefetch list is rebuilt when the eye has moved by this share of a cell's size, or turned
 // by this much: the paper's timestamp.
 constexpr double kMoved = 0.1;
 const double kTurnedCosine = std::cos(glm::radians(10.0));
@@ -66,7 +66,7 @@ Residency::Residency(const Gl& gl, const Bundle& bundle, const ResidencyOptions&
 
 CellId Residency::cell_of(const Camera& camera) const {
   const HexGrid& grid = bundle_.cells().grid;
-  const auto cell = cell_at(grid, place_at(grid, glm::dvec2(camera.eye)));
+  const auto cell = cell_at(grid, coord_at(grid, glm::dvec2(camera.eye)));
   if (!cell) throw InputError("path", "", "the eye leaves the grid of cells");
   if (!bundle_.has(*cell))
     throw InputError("path", "",
@@ -141,7 +141,7 @@ void Residency::upload_ahead() {
   }
 }
 
-// Whatever the cell still lacks is read and uploaded here and now.
+// Reads and uploads at once what the cell still lacks.
 void Residency::bring(CellId cell) {
   bool stalled = false;
   const auto read = [&](const LoadKey& key) {
@@ -190,10 +190,10 @@ void Residency::request_ahead(const Camera& camera) {
   asked_eye_ = camera.eye, asked_forward_ = camera.forward;
   std::vector<std::pair<double, CellId>> order;
   for (int face = 0; face < 6; ++face) {
-    const HexPlace place = neighbour(place_of(grid, current_), face);
-    const auto cell = cell_at(grid, place);
+    const HexCoord hex = neighbour(coord_of(grid, current_), face);
+    const auto cell = cell_at(grid, hex);
     if (!cell || !bundle_.has(*cell)) continue;
-    const glm::dvec2 to = centre_of(grid, place) - glm::dvec2(camera.eye);
+    const glm::dvec2 to = centre_of(grid, hex) - glm::dvec2(camera.eye);
     const double ahead = glm::dot(to, glm::dvec2(camera.forward));
     order.emplace_back(glm::length(to) - 0.5 * ahead, *cell);
   }

@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kDifferenceGain = 8;
 
-// A pass over the frames, told to the progress as one of two.
+// A pass over the frames, reported to the progress as one of two.
 class Pass {
  public:
   Pass(const Progress& progress, std::size_t n_frames, std::size_t first)
@@ -148,7 +148,7 @@ Timeline start_timeline(const Player& player, const Bundle& bundle, const Camera
     const std::size_t steps = std::max<std::size_t>(1, cameras.size() - 1);
     info.time_s = start + span * static_cast<double>(i) / static_cast<double>(steps);
     const HexGrid& grid = bundle.cells().grid;
-    if (const auto cell = cell_at(grid, place_at(grid, glm::dvec2(cameras[i].eye))))
+    if (const auto cell = cell_at(grid, coord_at(grid, glm::dvec2(cameras[i].eye))))
       info.cell = static_cast<int>(*cell);
     timeline.frames.push_back(info);
   }

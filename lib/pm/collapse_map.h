@@ -1,4 +1,4 @@
-// The correspondence of the surface before and after an edge collapse, cell by cell.
+// The correspondence of the surface before and after an edge collapse, by overlay cells.
 #pragma once
 
 #include <cstdint>
@@ -18,9 +18,9 @@ struct WedgeMove {
 };
 
 /// When u collapses into v, the faces of u are mapped onto the faces that remain: the edges from u
-/// (old) and those from v (new) overlay in the star and cut it into cells, whose corners are u, the
-/// star's vertices and crossings of an old with a new edge. Each corner has a point on the old and
-/// one on the new surface.
+/// (old) and those from v (new) overlay in the star and cut it into overlay cells, whose corners
+/// are u, the star's vertices and crossings of an old with a new edge. Each corner has a point on
+/// the old and one on the new surface.
 ///
 ///        n2----n1          old edges  u-n1, u-n2, u-n3, u-v
 ///       /  \  / |          new edges  v-n2

@@ -12,8 +12,7 @@ namespace viewcell {
 
 /// The star of one vertex u at a time: the triangles at u. A sector is the part of the star that
 /// lies in one texture chart: several where u lies on borders of charts, else one, as without
-/// texture coordinates. Positions and
-/// texture coordinates are relative to u.
+/// texture coordinates. Positions and texture coordinates are relative to u.
 class CollapseStar {
  public:
   /// A neighbour of u; the neighbours in order are the rim of the star.

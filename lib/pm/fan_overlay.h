@@ -10,8 +10,8 @@
 namespace viewcell {
 
 /// A fan is the triangles from one apex to the edges of a polygon; a ray goes from the apex to a
-/// corner of the polygon. The old fan's apex is the origin. Each corner of a cell has a point on
-/// the old and one on the new surface.
+/// corner of the polygon. The old fan's apex is the origin. Each corner of an overlay cell has a
+/// point on the old and one on the new surface.
 ///
 /// In the texture corners keep their order along each edge and some distance from each other, so
 /// that no cell folds or vanishes where the faces do not. Differs from [Chen06 3.2.2], where points

@@ -72,13 +72,13 @@ class LindstromTurkMetric::Constraints {
     d_[n_++] = d;
   }
 
-  // Where q is least on what the constraints leave free.
+  // Minimises q in the subspace that the constraints leave free.
   void add_minimum(const Quadratic& q) {
     const double size = q.a[0] + q.a[1] + q.a[2];
     if (is_full() || !(size > 0)) return;
     const auto add_free = [&](const glm::dvec3& free) {
       const glm::dvec3 row = q.times(free);
-      // A direction in which q is all but flat says nothing.
+      // Directions in which q is nearly constant are ignored.
       if (glm::dot(row, row) > 1e-20 * size * size) add(row, -glm::dot(q.b, free));
     };
     if (n_ == 0) {

@@ -13,7 +13,7 @@ namespace {
 UsedVertices take_all_vertices(std::size_t n) {
   UsedVertices out{std::vector<std::uint32_t>(n), {}};
   std::iota(out.source.begin(), out.source.end(), 0u);
-  out.place = out.source;
+  out.new_index = out.source;
   return out;
 }
 
@@ -172,9 +172,9 @@ std::string check_ranges(const ProgressiveRecord& r, std::size_t n_wedges) {
   return "";
 }
 
-// Makes the splits, one after another. The other way round each must be the collapse of an edge, as
-// logs of adaptations make them again: all faces at the child come or move with it, those that come
-// have the edge, and no others.
+// Makes the splits one after another and checks that each is the inverse of an edge collapse, since
+// logs of adaptations replay the collapses: every face at the child is born or moved by the split,
+// and exactly the born ones have the edge.
 class SplitChecker {
  public:
   explicit SplitChecker(const ProgressiveRecord& r)

@@ -16,7 +16,7 @@ std::uint32_t size32(const std::vector<T>& values) {
 }
 
 // The groups of values in opposite order, each group as it is; count(split) is a group's size. The
-// values are let go.
+// values are freed.
 template <typename T, typename Count>
 std::vector<T> reverse_groups(std::vector<T>& values, const std::vector<VertexSplit>& splits,
                               Count&& count) {

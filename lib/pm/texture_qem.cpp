@@ -108,7 +108,7 @@ void TextureQemFullMetric::place_freely(std::uint32_t u, std::uint32_t v) {
   if (quadrics_.scale > 0) last_.texcoord = glm::vec2(glm::dvec2(x[3], x[4]) / quadrics_.scale);
 }
 
-// The sum is quadratic along the edge: its values at both ends and in the middle tell all.
+// The sum is quadratic along the edge: its values at both ends and in the middle determine it.
 void TextureQemFullMetric::place_on_edge(std::uint32_t u, std::uint32_t v) {
   double weight = 0;
   const auto value_at = [&](double along) {

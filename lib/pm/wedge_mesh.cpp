@@ -216,7 +216,7 @@ bool WedgeTable::add_pair(const Pair& pair) {
   return true;
 }
 
-// Wedges of u at triangles that live on only.
+// Pairs the wedges of u that only surviving triangles have.
 bool WedgeTable::pair_rest(const CollapseMesh& mesh, std::uint32_t u) {
   bool fits = true;
   mesh.for_each_corner(u, [&](std::uint32_t c) {

@@ -1,4 +1,5 @@
-// A scene: meshes, materials, and the objects that place them (docs/formats.md, scene.json).
+// A scene: meshes, materials, and the objects, which are instances of meshes (docs/formats.md,
+// scene.json).
 #pragma once
 
 #include <filesystem>
@@ -38,7 +39,7 @@ struct SceneMesh {
 struct SceneObject {
   std::string name;
   MeshId mesh{};
-  int material = 0;  ///< place in Scene::materials; a mesh's own per-triangle materials win
+  int material = 0;  ///< index into Scene::materials; a mesh's own per-triangle materials win
   glm::dvec3 translation{0};
   glm::dquat rotation{1, 0, 0, 0};
   double scale = 1;

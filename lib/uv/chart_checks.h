@@ -1,4 +1,4 @@
-// What stands in the way of one texture that is drawn and redrawn texel by texel: charts that
+// Properties of texture coordinates that rule out rewriting the texture texel by texel: charts that
 // overlap, lie outside the picture, or have no area.
 #pragma once
 
@@ -39,8 +39,8 @@ struct ChartFindings {
   std::size_t n_shared = 0;            ///< texels that they share
   std::size_t n_crowded = 0;  ///< texels of a chart with another chart's within 2 texels of them
 
-  /// Whether each texel stands for one place of the surface at most. Corners that lie a little
-  /// outside (n_outside) do not spoil it, but what lies there has no texels.
+  /// Whether each texel stands for one point of the surface at most. Corners that lie a little
+  /// outside (n_outside) do not matter, but what lies there has no texels.
   bool is_one_to_one() const {
     return n_not_finite == 0 && tile == glm::ivec2(0) && n_repeating == 0 && overlaps.empty();
   }

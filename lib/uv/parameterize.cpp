@@ -227,11 +227,11 @@ std::vector<glm::dvec2> place_boundary(const TriMesh& mesh, const std::vector<st
 }
 
 std::vector<glm::dvec2> solve_interior(const TriMesh& mesh, const std::vector<std::uint32_t>& loop,
-                                       const std::vector<glm::dvec2>& places,
+                                       const std::vector<glm::dvec2>& positions,
                                        const ParameterizeOptions& options) {
-  VIEWCELL_CHECK(loop.size() == places.size(), loop.size(), places.size());
+  VIEWCELL_CHECK(loop.size() == positions.size(), loop.size(), positions.size());
   std::vector<glm::dvec2> uv(mesh.positions.size(), glm::dvec2(0));
-  for (std::size_t i = 0; i < loop.size(); ++i) uv[loop[i]] = places[i];
+  for (std::size_t i = 0; i < loop.size(); ++i) uv[loop[i]] = positions[i];
   std::vector<Weight> weights = options.weights == UvWeights::uniform
                                     ? make_uniform_weights(mesh)
                                     : make_mean_value_weights(mesh);

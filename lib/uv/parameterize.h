@@ -26,7 +26,7 @@ struct ParameterizeOptions {
   UvWeights weights = UvWeights::mean_value;
   UvBoundary boundary = UvBoundary::circle;
   /// Largest number of times that weights are divided by the stretch around the neighbour and the
-  /// map is solved anew; ends before as soon as the L2 stretch does not fall. 0: never.
+  /// map is solved again; ends before as soon as the L2 stretch does not fall. 0: never.
   int relax_steps = 0;
 };
 
@@ -40,13 +40,13 @@ std::vector<glm::dvec2> parameterize_disk(const TriMesh& mesh,
                                           const std::vector<std::uint32_t>& loop,
                                           const ParameterizeOptions& options = {});
 
-/// The boundary alone: one place a vertex of the loop, counter-clockwise, in [-1, 1]^2.
+/// The boundary alone: one position a vertex of the loop, counter-clockwise, in [-1, 1]^2.
 std::vector<glm::dvec2> place_boundary(const TriMesh& mesh, const std::vector<std::uint32_t>& loop,
                                        UvBoundary boundary);
 
-/// Per vertex, with the loop's vertices at the places given. Options: weights and relax_steps.
+/// Per vertex, with the loop's vertices at the given positions. Options: weights and relax_steps.
 std::vector<glm::dvec2> solve_interior(const TriMesh& mesh, const std::vector<std::uint32_t>& loop,
-                                       const std::vector<glm::dvec2>& places,
+                                       const std::vector<glm::dvec2>& positions,
                                        const ParameterizeOptions& options = {});
 
 /// Sets mesh.texcoords from coordinates per vertex.

@@ -24,14 +24,14 @@ TriangleGrid::TriangleGrid(const TriMesh& mesh, const std::vector<std::uint32_t>
   const double n_triangles = static_cast<double>(mesh.triangles.size());
   n_ = std::clamp(static_cast<int>(std::sqrt(n_triangles)), 1, kMostCells);
   if (lo.x <= hi.x) lo_ = lo, cell_ = glm::max((hi - lo) / double(n_), glm::dvec2(1e-12));
-  cells_ = fill_buckets<std::uint32_t>(place_of(0, n_), [&](const auto& emit) {
+  cells_ = fill_buckets<std::uint32_t>(bin_index(0, n_), [&](const auto& emit) {
     for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
       const Corners2 p = corners_of(t);
       if (!is_finite(p)) continue;
       const glm::ivec2 a = cell_of(glm::min(glm::min(p[0], p[1]), p[2]));
       const glm::ivec2 b = cell_of(glm::max(glm::max(p[0], p[1]), p[2]));
       for (int y = a.y; y <= b.y; ++y)
-        for (int x = a.x; x <= b.x; ++x) emit(place_of(x, y), t);
+        for (int x = a.x; x <= b.x; ++x) emit(bin_index(x, y), t);
     }
   });
 }
@@ -46,12 +46,12 @@ Corners2 TriangleGrid::corners_of(std::uint32_t t) const {
 }
 
 // Rings of cells around uv's own, until what lies beyond is farther than what was found.
-TriangleGrid::Place TriangleGrid::find(const glm::dvec2& uv, std::uint32_t chart) const {
-  Place best;
+TriangleGrid::Nearest TriangleGrid::find(const glm::dvec2& uv, std::uint32_t chart) const {
+  Nearest best;
   double least2 = std::numeric_limits<double>::infinity();
-  const auto look_into = [&](int x, int y) {
+  const auto search_bin = [&](int x, int y) {
     if (x < 0 || y < 0 || x >= n_ || y >= n_) return;
-    for (const std::uint32_t t : cells_.of(place_of(x, y))) {
+    for (const std::uint32_t t : cells_.of(bin_index(x, y))) {
       if (charts_[t] != chart) continue;
       const Corners2 p = corners_of(t);
       const glm::dvec3 weights = nearest_weights(p, uv);
@@ -64,12 +64,12 @@ TriangleGrid::Place TriangleGrid::find(const glm::dvec2& uv, std::uint32_t chart
   const glm::ivec2 c = cell_of(uv);
   for (int r = 0; r < n_; ++r) {
     for (int x = c.x - r; x <= c.x + r; ++x) {
-      look_into(x, c.y - r);
-      if (r > 0) look_into(x, c.y + r);
+      search_bin(x, c.y - r);
+      if (r > 0) search_bin(x, c.y + r);
     }
     for (int y = c.y - r + 1; y < c.y + r; ++y) {
-      look_into(c.x - r, y);
-      look_into(c.x + r, y);
+      search_bin(c.x - r, y);
+      search_bin(c.x + r, y);
     }
     // Distance from uv, or its nearest point of the grid, to the nearest cell not yet seen.
     const glm::dvec2 in = glm::clamp((uv - lo_) / cell_, glm::dvec2(0), glm::dvec2(n_));

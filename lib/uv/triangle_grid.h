@@ -16,7 +16,7 @@ class TriangleGrid {
   /// Both must outlive the grid.
   TriangleGrid(const TriMesh& mesh, const std::vector<std::uint32_t>& charts);
 
-  struct Place {
+  struct Nearest {
     std::uint32_t triangle = kNone;
     glm::dvec3 weights{
         0};  ///< of its corners at the nearest point, which is uv where it lies in it
@@ -25,11 +25,11 @@ class TriangleGrid {
 
   /// The triangle of the chart nearest to uv, of several the lowest; kNone: it has no triangle.
   /// Exact; constant time in or near a chart.
-  Place find(const glm::dvec2& uv, std::uint32_t chart) const;
+  Nearest find(const glm::dvec2& uv, std::uint32_t chart) const;
 
  private:
   glm::ivec2 cell_of(const glm::dvec2& uv) const;
-  std::size_t place_of(int x, int y) const {
+  std::size_t bin_index(int x, int y) const {
     return std::size_t(y) * std::size_t(n_) + std::size_t(x);
   }
   Corners2 corners_of(std::uint32_t triangle) const;

@@ -153,7 +153,7 @@ TYPED_TEST(AdaptStep, GoesBack) {
           EXPECT_TRUE(is[0] == last[0] && is[1] == last[1]);
         } else if (is_original && kIsIndex<TypeParam>) {
           TypeParam own;
-          store(load(own_place(x, y, kSize, kSize)), own);
+          store(load(own_texcoords(x, y, kSize, kSize)), own);
           EXPECT_TRUE(is[0] == load(own)[0] && is[1] == load(own)[1]);
         } else if (inside_box(map_box({x, y}, before, after), after) > 1.01) {
           const Float4 wanted = ramp<TypeParam>({x, y});

@@ -130,7 +130,7 @@ TEST(TriangleGrid, FindsWhatTryingAllFinds) {
       const Corners2 p{mesh.texcoords[3 * t], mesh.texcoords[3 * t + 1], mesh.texcoords[3 * t + 2]};
       least = std::min(least, glm::distance(mix(p, nearest_weights(p, uv)), uv));
     }
-    const TriangleGrid::Place found = grid.find(uv, chart);
+    const TriangleGrid::Nearest found = grid.find(uv, chart);
     ASSERT_NE(found.triangle, TriangleGrid::kNone);
     ASSERT_EQ(charts[found.triangle], chart);
     const std::size_t c = 3 * found.triangle;
@@ -175,7 +175,7 @@ TEST(NormalMapBake, LevelsShowTheNormalsOfTheFinest) {
       for (int x = 0; x < kSize; x += 3) {
         glm::dmat3 from, to;
         const glm::vec2& uv = levels.map.at(x, y);
-        if (!level.find(own_place(x, y, kSize, kSize), -1e-9, to)) continue;
+        if (!level.find(own_texcoords(x, y, kSize, kSize), -1e-9, to)) continue;
         if (!finest.find(uv, -1e-6, from)) continue;
         if (std::min({uv.x, uv.y, 1 - uv.x, 1 - uv.y}) < 0.12f) continue;  // fetches past the chart
         const glm::dvec3 meant = from * decode_at(relief, uv);
@@ -200,7 +200,7 @@ TEST(NormalMapBake, FlatOnesHoldTheShadingOfTheFinest) {
   for (int y = 0; y < kSize; ++y)
     for (int x = 0; x < kSize; ++x) {
       glm::dmat3 frame;
-      if (!level.find(own_place(x, y, kSize, kSize), 0, frame)) continue;
+      if (!level.find(own_texcoords(x, y, kSize, kSize), 0, frame)) continue;
       const glm::dvec2 at = (glm::dvec2(levels.map.at(x, y)) - 0.1) / 0.8 - 0.5;
       const double slope = 24 * kRelief * std::exp(-12 * glm::dot(at, at));
       const glm::dvec3 normal(slope * at.x, slope * at.y, 1);

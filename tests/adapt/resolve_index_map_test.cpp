@@ -38,7 +38,7 @@ IndexMap make_map(bool is_turned, const At& at) {
   for (int y = 0; y < kMapSize; ++y)
     for (int x = 0; x < kMapSize; ++x) {
       const double place = at(is_turned ? y : x);
-      out.at(x, y) = own_place(x, y, kMapSize, kMapSize);
+      out.at(x, y) = own_texcoords(x, y, kMapSize, kMapSize);
       if (is_turned)
         out.at(x, y).y = static_cast<float>(1 - (place + 0.5) / kMapSize);
       else
@@ -57,7 +57,7 @@ TEST(BakeTexture, TheIdentityIsTheTexture) {
   const ImageRgba8 texture = make_texture(false);
   IndexMap map(kMapSize, kMapSize);
   for (int y = 0; y < kMapSize; ++y)
-    for (int x = 0; x < kMapSize; ++x) map.at(x, y) = own_place(x, y, kMapSize, kMapSize);
+    for (int x = 0; x < kMapSize; ++x) map.at(x, y) = own_texcoords(x, y, kMapSize, kMapSize);
   EXPECT_EQ(resolve_index_map(map, texture, charts, charts).pixels, texture.pixels);
 }
 

@@ -211,7 +211,7 @@ TEST(BakeTexture, KeepsTheGroundOut) {
   IndexMap map(32, 32);
   for (int y = 0; y < 32; ++y)
     for (int x = 0; x < 32; ++x) {
-      map.at(x, y) = own_place(x, y, 32, 32);
+      map.at(x, y) = own_texcoords(x, y, 32, 32);
       map.at(x, y).x = x < 8 ? 2 * map.at(x, y).x : 0.1f;  // stale beyond
     }
   const ImageRgba8 out = resolve_index_map(map, texture, finest, level);

@@ -58,7 +58,7 @@ void for_each_outside(const Visit& visit) {
 
 glm::dvec3 random_eye(const CellSet& cells, CellId cell, Random& random) {
   const glm::dvec3 centre = eye_of(cells, cell);
-  const ConvexPolygon corners = corners_of(cells.grid, place_of(cells.grid, cell));
+  const ConvexPolygon corners = corners_of(cells.grid, coord_of(cells.grid, cell));
   for (;;) {
     const glm::dvec2 p = glm::dvec2(centre) +
                          cells.grid.size * glm::dvec2(random.uniform(-1, 1), random.uniform(-1, 1));

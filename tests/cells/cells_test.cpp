@@ -59,7 +59,7 @@ TEST(MakeCells, PointsOfFootprintsAreInCellsThatListThem) {
     for (int i = 0; i < 50; ++i) {
       const glm::dvec3 p =
           scene.objects[o].world_from_model({random.uniform(-1, 1), random.uniform(-1, 1), 0});
-      const auto cell = cell_at(cells.grid, place_at(cells.grid, glm::dvec2(p)));
+      const auto cell = cell_at(cells.grid, coord_at(cells.grid, glm::dvec2(p)));
       if (!cell) continue;
       ++n_checked;
       EXPECT_TRUE(is_inside(cells, *cell, ObjectId(o)));
@@ -72,13 +72,13 @@ TEST(Prism, HasTwelveCornersAtBothHeights) {
   const CellId cell{7};
   const auto corners = prism_of(cells, cell);
   ASSERT_EQ(corners.size(), 12u);
-  const ConvexPolygon hexagon = corners_of(cells.grid, place_of(cells.grid, cell));
+  const ConvexPolygon hexagon = corners_of(cells.grid, coord_of(cells.grid, cell));
   for (std::size_t k = 0; k < 12; ++k) {
     EXPECT_EQ(glm::dvec2(corners[k]), hexagon[k % 6]);
     EXPECT_EQ(corners[k].z, k < 6 ? 16 : 20);
   }
   const glm::dvec3 eye = eye_of(cells, cell);
-  EXPECT_EQ(eye, glm::dvec3(centre_of(cells.grid, place_of(cells.grid, cell)), 18));
+  EXPECT_EQ(eye, glm::dvec3(centre_of(cells.grid, coord_of(cells.grid, cell)), 18));
 }
 
 TEST(CentresOf, AreTheClosedNeighbourhoodsOnce) {

@@ -56,7 +56,7 @@ TEST(HexGrid, EveryPointOfTheAreaIsInACell) {
     const Area area{lo, lo + glm::dvec2(random.uniform(1, 900), random.uniform(1, 900))};
     const HexGrid grid = make_grid(area, random.uniform(5, 200));
     for (const glm::dvec2& p : telling_points(area, grid, random))
-      EXPECT_TRUE(cell_at(grid, place_at(grid, p))) << p.x << " " << p.y;
+      EXPECT_TRUE(cell_at(grid, coord_at(grid, p))) << p.x << " " << p.y;
   }
 }
 
@@ -70,7 +70,7 @@ TEST(HexGrid, EdgesThatAreBordersBelongToCells) {
         const glm::dvec2 p = glm::mix(area.lo, area.hi, t);
         for (const glm::dvec2& q : {glm::dvec2(p.x, area.lo.y), glm::dvec2(p.x, area.hi.y),
                                     glm::dvec2(area.lo.x, p.y), glm::dvec2(area.hi.x, p.y)})
-          EXPECT_TRUE(cell_at(grid, place_at(grid, q))) << q.x << " " << q.y << " of " << k;
+          EXPECT_TRUE(cell_at(grid, coord_at(grid, q))) << q.x << " " << q.y << " of " << k;
       }
     }
 }
@@ -86,8 +86,8 @@ TEST(HexGrid, IsNoLargerThanNeeded) {
     for (int i = 0; i < grid.columns; ++i)
       for (int j = 0; j < grid.rows; ++j) {
         const glm::dvec2 c = glm::min(centre_of(grid, {i, j}), area.hi);
-        columns.insert(place_at(grid, {area.hi.x, c.y}).column);
-        rows.insert(place_at(grid, {c.x, area.hi.y}).row);
+        columns.insert(coord_at(grid, {area.hi.x, c.y}).column);
+        rows.insert(coord_at(grid, {c.x, area.hi.y}).row);
       }
     EXPECT_TRUE(columns.contains(grid.columns - 1));
     EXPECT_TRUE(rows.contains(grid.rows - 1));
@@ -101,7 +101,7 @@ TEST(HexGrid, PlaceIsTheNearestCentre) {
     HexGrid grid{{random.uniform(-9, 9), random.uniform(-9, 9)}, random.uniform(1, 80), 9, 9};
     for (int i = 0; i < 2000; ++i) {
       const glm::dvec2 p{random.uniform(-400, 400), random.uniform(-400, 400)};
-      const HexPlace place = place_at(grid, p);
+      const HexCoord place = coord_at(grid, p);
       const double found = glm::length(p - centre_of(grid, place));
       EXPECT_LE(found, grid.size * (1 + 1e-12));
       for (int dc = -2; dc <= 2; ++dc)
@@ -115,11 +115,11 @@ TEST(HexGrid, PlaceIsTheNearestCentre) {
 TEST(HexGrid, CentresAndPointsAroundThemAreInTheirCell) {
   const HexGrid grid = make_grid({{0, 0}, {500, 500}}, 50);
   for (int i = 0; i < grid.n_cells(); ++i) {
-    const HexPlace place = place_of(grid, CellId(i));
+    const HexCoord place = coord_of(grid, CellId(i));
     const glm::dvec2 c = centre_of(grid, place);
-    EXPECT_EQ(place_at(grid, c), place);
+    EXPECT_EQ(coord_at(grid, c), place);
     for (const glm::dvec2& corner : corners_of(grid, place))
-      EXPECT_EQ(place_at(grid, glm::mix(c, corner, 0.999)), place);
+      EXPECT_EQ(coord_at(grid, glm::mix(c, corner, 0.999)), place);
     EXPECT_EQ(cell_at(grid, place), CellId(i));
   }
 }
@@ -127,7 +127,7 @@ TEST(HexGrid, CentresAndPointsAroundThemAreInTheirCell) {
 // Two hexagons share no inner point: a point just inside one is outside all its neighbours.
 TEST(HexGrid, CellsDoNotOverlap) {
   const HexGrid grid{{3, 7}, 50, 5, 5};
-  for (const HexPlace place : {HexPlace{2, 2}, {1, 2}, {-1, -3}})
+  for (const HexCoord place : {HexCoord{2, 2}, {1, 2}, {-1, -3}})
     for (const glm::dvec2& corner : corners_of(grid, place)) {
       const glm::dvec2 p = glm::mix(centre_of(grid, place), corner, 0.9999);
       EXPECT_TRUE(contains(corners_of(grid, place), p));
@@ -138,7 +138,7 @@ TEST(HexGrid, CellsDoNotOverlap) {
 
 TEST(HexGrid, CornersAreSizeFromTheCentreCounterClockwise) {
   const HexGrid grid{{3, 7}, 50, 5, 5};
-  const HexPlace place{3, 1};
+  const HexCoord place{3, 1};
   const ConvexPolygon corners = corners_of(grid, place);
   ASSERT_EQ(corners.size(), 6u);
   for (std::size_t k = 0; k < 6; ++k) {
@@ -165,7 +165,7 @@ TEST(HexGrid, NeighboursAreMutualAndWhereTheirFacesLook) {
   for (int column = -2; column <= 3; ++column)
     for (int row = -2; row <= 2; ++row)
       for (int face = 0; face < 6; ++face) {
-        const HexPlace place{column, row}, next = neighbour(place, face);
+        const HexCoord place{column, row}, next = neighbour(place, face);
         EXPECT_EQ(neighbour(next, (face + 3) % 6), place);
         const glm::dvec2 d = centre_of(grid, next) - centre_of(grid, place);
         const double angle = glm::radians(30.0 + 60.0 * face);
@@ -179,13 +179,13 @@ TEST(HexGrid, NeighboursAreMutualAndWhereTheirFacesLook) {
 TEST(HexGrid, IdsComeBackTheRimIncluded) {
   const HexGrid grid{{0, 0}, 50, 4, 3};
   for (int i = 0; i < grid.n_centres(); ++i)
-    EXPECT_EQ(centre_at(grid, place_of(grid, CentreId(i))), CentreId(i));
+    EXPECT_EQ(centre_at(grid, coord_of(grid, CentreId(i))), CentreId(i));
   EXPECT_EQ(grid.n_centres(), 30);
-  EXPECT_EQ(place_of(grid, CentreId(0)), (HexPlace{-1, -1}));
-  EXPECT_EQ(place_of(grid, CentreId(29)), (HexPlace{4, 3}));
-  for (const HexPlace& p : {HexPlace{-2, 0}, {5, 0}, {0, -2}, {0, 4}})
+  EXPECT_EQ(coord_of(grid, CentreId(0)), (HexCoord{-1, -1}));
+  EXPECT_EQ(coord_of(grid, CentreId(29)), (HexCoord{4, 3}));
+  for (const HexCoord& p : {HexCoord{-2, 0}, {5, 0}, {0, -2}, {0, 4}})
     EXPECT_FALSE(centre_at(grid, p));
-  for (const HexPlace& p : {HexPlace{-1, 0}, {4, 0}, {0, -1}, {0, 3}}) {
+  for (const HexCoord& p : {HexCoord{-1, 0}, {4, 0}, {0, -1}, {0, 3}}) {
     EXPECT_FALSE(cell_at(grid, p));
     EXPECT_TRUE(centre_at(grid, p));
   }
@@ -194,12 +194,12 @@ TEST(HexGrid, IdsComeBackTheRimIncluded) {
 TEST(HexGrid, ViewsAreTheSevenCentresInOrder) {
   const HexGrid grid{{0, 0}, 50, 4, 3};
   for (int i = 0; i < grid.n_cells(); ++i) {
-    const HexPlace place = place_of(grid, CellId(i));
+    const HexCoord place = coord_of(grid, CellId(i));
     const auto views = views_of(grid, CellId(i));
     EXPECT_EQ(std::set<CentreId>(views.begin(), views.end()).size(), 7u);
-    EXPECT_EQ(place_of(grid, views[0]), place);
+    EXPECT_EQ(coord_of(grid, views[0]), place);
     for (int face = 0; face < 6; ++face)
-      EXPECT_EQ(place_of(grid, views[static_cast<std::size_t>(face) + 1]), neighbour(place, face));
+      EXPECT_EQ(coord_of(grid, views[static_cast<std::size_t>(face) + 1]), neighbour(place, face));
   }
 }
 

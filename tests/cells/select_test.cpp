@@ -72,7 +72,7 @@ TEST(SelectCells, PathTakesEveryCellOfEverySample) {
   for (std::size_t i = 0; i + 1 < path.samples.size(); ++i)
     for (double t = 0; t <= 1; t += 0.01) {
       const glm::dvec2 eye(glm::mix(path.samples[i].eye, path.samples[i + 1].eye, t));
-      const auto cell = cell_at(cells.grid, place_at(cells.grid, eye));
+      const auto cell = cell_at(cells.grid, coord_at(cells.grid, eye));
       EXPECT_TRUE(!cell || std::binary_search(chosen.begin(), chosen.end(), *cell));
     }
 }

@@ -12,7 +12,7 @@ namespace {
 IndexMap identity(int width_px, int height_px) {
   IndexMap map(width_px, height_px);
   for (int y = 0; y < height_px; ++y)
-    for (int x = 0; x < width_px; ++x) map.at(x, y) = own_place(x, y, width_px, height_px);
+    for (int x = 0; x < width_px; ++x) map.at(x, y) = own_texcoords(x, y, width_px, height_px);
   return map;
 }
 

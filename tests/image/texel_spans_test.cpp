@@ -14,10 +14,10 @@ namespace {
 TEST(TexelSpans, CentresAreWholeNumbers) {
   EXPECT_EQ(to_texels({0, 1}, 8, 4), glm::dvec2(-0.5, -0.5));
   EXPECT_EQ(to_texels({1, 0}, 8, 4), glm::dvec2(7.5, 3.5));
-  EXPECT_EQ(own_place(0, 0, 8, 4), glm::vec2(0.0625f, 0.875f));
+  EXPECT_EQ(own_texcoords(0, 0, 8, 4), glm::vec2(0.0625f, 0.875f));
   for (int y = 0; y < 5; ++y)
     for (int x = 0; x < 7; ++x)
-      EXPECT_LT(glm::distance(to_texels(own_place(x, y, 7, 5), 7, 5), glm::dvec2(x, y)), 1e-6);
+      EXPECT_LT(glm::distance(to_texels(own_texcoords(x, y, 7, 5), 7, 5), glm::dvec2(x, y)), 1e-6);
 }
 
 // Texels whose centres are strictly inside are visited once, in rows, those outside are not,

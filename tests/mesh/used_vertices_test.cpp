@@ -14,8 +14,8 @@ TEST(UsedVertices, KeepTheirOrderOrThatOfUse) {
   const std::vector<Triangle> triangles{{8, 7, 4}, {4, 7, 1}};
   const UsedVertices old = find_used_vertices(triangles, 9);
   EXPECT_EQ(old.source, (Numbers{1, 4, 7, 8}));
-  EXPECT_EQ(old.place[8], 3u);
-  EXPECT_EQ(old.place[5], kUnusedVertex);
+  EXPECT_EQ(old.new_index[8], 3u);
+  EXPECT_EQ(old.new_index[5], kUnusedVertex);
   EXPECT_EQ(old.renumber(triangles), (std::vector<Triangle>{{3, 2, 1}, {1, 2, 0}}));
   const UsedVertices first = find_used_vertices(triangles, 9, VertexOrder::first_use);
   EXPECT_EQ(first.source, (Numbers{8, 7, 4, 1}));
@@ -38,9 +38,9 @@ TEST(UsedVertices, NumbersGoBothWays) {
     for (const VertexOrder order : {VertexOrder::old, VertexOrder::first_use}) {
       const UsedVertices used = find_used_vertices(triangles, n, order);
       std::size_t n_placed = 0;
-      for (const std::uint32_t place : used.place) n_placed += place != kUnusedVertex;
+      for (const std::uint32_t place : used.new_index) n_placed += place != kUnusedVertex;
       ASSERT_EQ(n_placed, used.size());
-      for (std::uint32_t v = 0; v < used.size(); ++v) ASSERT_EQ(used.place[used.source[v]], v);
+      for (std::uint32_t v = 0; v < used.size(); ++v) ASSERT_EQ(used.new_index[used.source[v]], v);
       const std::vector<Triangle> renumbered = used.renumber(triangles);
       for (std::size_t t = 0; t < triangles.size(); ++t)
         for (std::size_t k = 0; k < 3; ++k)

@@ -31,7 +31,7 @@ struct Stage {
       Camera camera;
       camera.eye = {random.uniform(0, 120), random.uniform(0, 120), random.uniform(16, 20)};
       const glm::dvec3 to = bundle.scene().objects[random.below(objects)].translation - camera.eye;
-      const auto cell = cell_at(cells.grid, place_at(cells.grid, glm::dvec2(camera.eye)));
+      const auto cell = cell_at(cells.grid, coord_at(cells.grid, glm::dvec2(camera.eye)));
       if (!cell || glm::length(to) < 45) continue;
       camera.forward = glm::normalize(to);
       return camera;

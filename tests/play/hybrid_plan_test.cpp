@@ -14,7 +14,7 @@ struct Grid {
   HexGrid grid{{0, 0}, 40, 6, 6};
   std::array<glm::dvec3, kViews> centres_of_cell(CellId cell) const {
     std::array<glm::dvec3, kViews> out;
-    const auto place = place_of(grid, cell);
+    const auto place = coord_of(grid, cell);
     out[0] = glm::dvec3(centre_of(grid, place), 18);
     for (int k = 0; k < 6; ++k)
       out[static_cast<std::size_t>(k) + 1] = glm::dvec3(centre_of(grid, neighbour(place, k)), 18);
@@ -22,7 +22,7 @@ struct Grid {
   }
   // Within the hexagon shrunk by `share`.
   glm::dvec2 random_point(CellId cell, Random& random, double share = 1) const {
-    const auto place = place_of(grid, cell);
+    const auto place = coord_of(grid, cell);
     for (;;) {
       const glm::dvec2 d = grid.size * glm::dvec2(random.uniform(-1, 1), random.uniform(-1, 1));
       if (contains(corners_of(grid, place), centre_of(grid, place) + d))
@@ -147,7 +147,7 @@ TEST(ChooseViews, DegenerateEyesGiveNumbers) {
 
 // The face through which the segment from the eye leaves the hexagon.
 int face_between(const HexGrid& grid, CellId cell, const glm::dvec2& eye, const glm::dvec2& point) {
-  const glm::dvec2 centre = centre_of(grid, place_of(grid, cell));
+  const glm::dvec2 centre = centre_of(grid, coord_of(grid, cell));
   const double apothem = std::sqrt(0.75) * grid.size;
   int face = -1;
   double first = 1;
@@ -196,7 +196,7 @@ TEST(Windows, WhatIsSeenIsSeenThroughAVisibleWindow) {
 TEST(Windows, ByHand) {
   const Grid g;
   Camera camera;
-  camera.eye = glm::dvec3(centre_of(g.grid, place_of(g.grid, kCell)), 18);
+  camera.eye = glm::dvec3(centre_of(g.grid, coord_of(g.grid, kCell)), 18);
   camera.fov_y_deg = 50;
   for (int face = 0; face < 6; ++face) {
     const double a = glm::radians(30.0 + 60.0 * face);

@@ -57,7 +57,7 @@ TEST(ReadyCell, WindowsAreTheFacesThatTheBoxReachesBeyond) {
   Random random(9);
   for (int k = 0; k < 2000; ++k) {
     const CellId cell = shared_bake().list[random.below(9)];
-    const glm::dvec2 centre = centre_of(cells.grid, place_of(cells.grid, cell));
+    const glm::dvec2 centre = centre_of(cells.grid, coord_of(cells.grid, cell));
     BundleObject o;
     o.kind = 1;
     for (int axis = 0; axis < 3; ++axis) {

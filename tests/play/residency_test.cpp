@@ -126,7 +126,7 @@ TEST(Residency, WalkingSlowlyStallsOnce) {
   Residency residency(shared_context().gl(), bundle, {16u << 20});
   const CellSet& cells = bundle.cells();
   const glm::dvec3 from = camera_at(cells, CellId(4)).eye;
-  const CellId to = *cell_at(cells.grid, neighbour(place_of(cells.grid, CellId(4)), 0));
+  const CellId to = *cell_at(cells.grid, neighbour(coord_of(cells.grid, CellId(4)), 0));
   std::set<CellId> entered;
   for (int k = 0; k <= 60; ++k) {
     Camera camera;

@@ -41,7 +41,9 @@ void declare(Tool& tool, Options& options) {
   BakeOptions& bake = options.bake;
   add("--ts", bake.ts_px, "T_s: self-occluding error, px, up to which one view is enough");
   add("--tl", bake.tl_px, "T_l: cost at which collapsing ends");
-  add("--max-drift", bake.max_drift_px, "px by which a vertex may leave the surface");
+  add("--max-drift", bake.max_drift_px,
+      "bound in px, as seen from the cell, on how far a vertex may lie off the planes of the "
+      "triangles that it replaces (a weighted root mean square)");
   add("--start-error", bake.start_error_px, "px of error of the level to start from; 0: original");
   add("--tc0", bake.categories.tc0, "T_C0, window depth for near 1, far infinite");
   add("--tc1", bake.categories.tc1, "T_C1, likewise");
