@@ -21,8 +21,9 @@ Json read_json(const std::filesystem::path& file, const std::string& format, int
 /// Two-space indentation, arrays of numbers on one line, a newline at the end.
 std::string format_json(const Json& json);
 
-/// A value inside a JSON file, which knows its file and its place ("objects[3].mesh").
-/// Every getter throws InputError when the value is missing or of another type or range.
+/// A value inside a JSON file, which knows its file and, for errors, its place there
+/// ("objects[3].mesh"). Every getter throws InputError when the value is missing or of another type
+/// or range.
 class JsonCursor {
  public:
   JsonCursor(const Json& value, const std::filesystem::path& file, std::string place = "")

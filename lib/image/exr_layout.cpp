@@ -141,7 +141,8 @@ std::vector<PartHeader> read_headers(Reader& reader, bool many_parts) {
   return parts;
 }
 
-// The place of the last chunk, after holding that all start behind the tables and inside the file.
+// The offset of the last chunk, after checking that all start behind the tables and inside the
+// file.
 std::uint64_t read_last_offset(Reader& reader, const std::vector<PartHeader>& parts) {
   std::uint64_t n_chunks = 0;
   for (const PartHeader& part : parts) n_chunks += static_cast<std::uint64_t>(part.n_chunks);

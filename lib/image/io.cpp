@@ -20,7 +20,7 @@ struct ChannelMap {
   int n_read;  // channels to decode: 0 .. n_read - 1
 };
 
-// The channels by place, or by name where the format has names.
+// The channels by index, or by name where the format has names.
 ChannelMap map_channels(const OIIO::ImageSpec& spec, ImageFormat format, const std::string& file) {
   ChannelMap map{{0, 1, 2, spec.nchannels > 3 ? 3 : -1}, 0};
   if (spec.nchannels == 1) map.from = {0, 0, 0, -1};

@@ -58,7 +58,7 @@ std::vector<std::uint32_t> make_fetch_order(const std::vector<Triangle>& triangl
 
 std::vector<DetailLevel> build_meshopt_levels(const TriMesh& mesh, const DetailOptions& options) {
   VIEWCELL_CHECK(options.ratio > 0 && options.ratio < 1, options.ratio);
-  constexpr double kLeastGain = 0.95;  // a level of hardly fewer triangles is not worth its place
+  constexpr double kLeastGain = 0.95;  // a level of hardly fewer triangles is not worth keeping
   std::vector<DetailLevel> levels(1);
   levels[0].triangles = optimize_index_order(mesh.triangles, mesh.positions.size());
   if (mesh.triangles.empty()) return levels;

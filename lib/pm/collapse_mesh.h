@@ -73,7 +73,7 @@ class CollapseMesh {
   /// edge from boundary to boundary through the inside is refused.
   Refusal check(std::uint32_t u, std::uint32_t v, const glm::vec3& position, float min_cosine);
 
-  /// Collapses u into v: triangles with both die, the others of u get v in its place. trace: set to
+  /// Collapses u into v: triangles with both die, the others of u get v instead. trace: set to
   /// what was done.
   void collapse(std::uint32_t u, std::uint32_t v, CollapseTrace* trace = nullptr);
   /// Whether some edge of v has exactly one triangle. Not thread-safe.

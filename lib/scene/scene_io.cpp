@@ -129,17 +129,17 @@ SceneMesh read_mesh_entry(const JsonCursor& cursor) {
 }
 
 SceneObject read_object(const JsonCursor& cursor, const Scene& scene) {
-  const auto place_in = [&](const char* key, std::size_t n) {
+  const auto index_into = [&](const char* key, std::size_t n) {
     const JsonCursor at = cursor.at(key);
-    const auto place = at.integer(-(1LL << 40), 1LL << 40);
-    if (place < 0 || place >= static_cast<std::int64_t>(n))
-      at.fail(std::to_string(place) + " is out of range: there are " + std::to_string(n));
-    return static_cast<std::int32_t>(place);
+    const auto value = at.integer(-(1LL << 40), 1LL << 40);
+    if (value < 0 || value >= static_cast<std::int64_t>(n))
+      at.fail(std::to_string(value) + " is out of range: there are " + std::to_string(n));
+    return static_cast<std::int32_t>(value);
   };
   SceneObject object;
   object.name = cursor.at("name").string();
-  object.mesh = MeshId(place_in("mesh", scene.meshes.size()));
-  object.material = place_in("material", scene.materials.size());
+  object.mesh = MeshId(index_into("mesh", scene.meshes.size()));
+  object.material = index_into("material", scene.materials.size());
   const auto t = cursor.at("translation").numbers(3, -kMaxCoordinate, kMaxCoordinate);
   object.translation = {t[0], t[1], t[2]};
   const auto q = cursor.at("rotation").numbers(4, -2, 2);
