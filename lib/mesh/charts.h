@@ -1,4 +1,6 @@
-// Charts: the parts that a mesh's texture coordinates hold together.
+// Charts: the parts of a mesh that are connected in the texture. The border of a chart is its edges
+// that only one of its triangles has; a seam is an edge of the surface on whose two sides the
+// texture coordinates differ.
 #pragma once
 
 #include <cstdint>

@@ -11,10 +11,11 @@
 
 namespace viewcell {
 
-/// Where several vertices of the file stand at one position, the first is the vertex and the others
-/// are wedges of it only. Wedge w < n of the file's vertices has the attributes of vertex w;
-/// further wedges are second, third, ... texture coordinates of one. Vertices and faces may stand
-/// along a curve through space, so that neighbours lie together in memory.
+/// A wedge is a vertex with one set of attributes (normal, colour, texture coordinates). Where
+/// several vertices of the file stand at one position, the first is the vertex and the others are
+/// wedges of it only. Wedge w < n of the file's vertices has the attributes of vertex w; further
+/// wedges are second, third, ... texture coordinates of one. Vertices and faces may stand along a
+/// curve through space, so that neighbours lie together in memory.
 struct WedgeMesh {
   LargeVector<glm::vec3> positions;
   std::vector<std::uint32_t> vertex_source;  ///< vertex -> the file's number of it
