@@ -15,7 +15,7 @@ void DeviationBoxes::add(const CollapseMap& map, Change& change) {
   const auto faces = map.faces();
   local_.assign(faces.size(), {});
   for (std::size_t i = 0; i < faces.size(); ++i) local_[i].before = box_of(faces[i], change);
-  for (const MapCell& cell : map.overlay().cells()) {
+  for (const OverlayCell& cell : map.overlay().cells()) {
     const VectorBox box = local_[cell.old_face].before.plus(cell.shift);
     local_[cell.old_face].is_old = true;
     Local& to = local_[cell.new_face];

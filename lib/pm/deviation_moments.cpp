@@ -41,7 +41,7 @@ void DeviationMoments::add(const CollapseMap& map, Change& change) {
 
 // Each overlay cell adds its area's share of the old face's moments to those of the new face.
 void DeviationMoments::distribute(const CollapseMap& map) {
-  const std::vector<MapCell>& cells = map.overlay().cells();
+  const std::vector<OverlayCell>& cells = map.overlay().cells();
   const std::vector<CellMoments>& moments = map.overlay().moments();
   for (std::size_t i = 0; i < cells.size(); ++i) {
     local_[cells[i].old_face].is_old = true;

@@ -18,7 +18,7 @@ namespace viewcell {
 /// that are nearest may pass each other and cells overlap.
 class FanOverlay {
  public:
-  /// What is made of cells beside what MapCell has.
+  /// What is made of cells beside what OverlayCell has.
   struct Keep {
     bool moments = false, texture = false;
   };
@@ -54,7 +54,7 @@ class FanOverlay {
   /// is.
   void add_vanishing_face(std::uint32_t inheriting_face, const FanPoint& after);
 
-  const std::vector<MapCell>& cells() const { return cells_; }
+  const std::vector<OverlayCell>& cells() const { return cells_; }
   /// Beside the cells, if asked for. Of an inheriting face's own, unchanged part all corners are 0.
   const std::vector<CellMoments>& moments() const { return moments_; }
   const std::vector<CellCorners>& textures() const { return textures_; }
@@ -99,7 +99,7 @@ class FanOverlay {
 
   Matching matching_;
   Keep keep_;
-  std::vector<MapCell> cells_;
+  std::vector<OverlayCell> cells_;
   std::vector<CellMoments> moments_;
   std::vector<CellCorners> textures_;
   std::vector<TexturePoint> points_;

@@ -18,7 +18,7 @@ enum class Matching {
 };
 
 /// An overlay cell: a triangle or a quadrilateral.
-struct MapCell {
+struct OverlayCell {
   std::uint32_t old_face, new_face;  ///< as given to FanOverlay::add_ray
   VectorBox shift{};  ///< old minus new point; linear between the corners, so it holds all
 };
