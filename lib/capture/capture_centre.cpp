@@ -5,7 +5,7 @@
 
 namespace viewcell {
 
-std::vector<std::vector<glm::dvec3>> world_points(const Scene& scene) {
+std::vector<std::vector<glm::dvec3>> object_points_world(const Scene& scene) {
   std::vector<std::vector<glm::dvec3>> points;
   for (const SceneObject& object : scene.objects) {
     std::vector<glm::dvec3>& placed = points.emplace_back();

@@ -13,14 +13,14 @@ namespace viewcell {
 using CaptureEngine = std::function<CaptureTile(ObjectId, const CaptureView&, const Crop&)>;
 
 /// Every object's vertices in the world, by object: 24 bytes a vertex and object.
-std::vector<std::vector<glm::dvec3>> world_points(const Scene& scene);
+std::vector<std::vector<glm::dvec3>> object_points_world(const Scene& scene);
 
 struct CentreTiles {
   std::vector<CaptureTile> tiles;  ///< filled beyond the objects, ascending by object
   std::size_t n_left_out = 0;      ///< objects that the eye is inside of or too close to
 };
 
-/// points: of world_points.
+/// points: of object_points_world.
 CentreTiles capture_centre(const CellSet& cells, CentreId centre,
                            const std::vector<std::vector<glm::dvec3>>& points,
                            const CaptureDensity& density, const CaptureEngine& engine);

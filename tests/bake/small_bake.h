@@ -100,7 +100,7 @@ struct SmallBake {
   void capture() const {
     const RayCapture rays(scene, 2);
     const auto centres = centres_of(cells, list);
-    const auto points = world_points(scene);
+    const auto points = object_points_world(scene);
     const CaptureEngine engine = [&](ObjectId object, const CaptureView& view, const Crop& crop) {
       return rays.capture(object, view, crop);
     };

@@ -48,7 +48,7 @@ int run(Tool& tool, const DepthcapArguments& a) {
   const std::filesystem::path folder = tool.common().output;
   make_folder(folder);
 
-  const auto points = world_points(scene);
+  const auto points = object_points_world(scene);
   Counts counts;
   with_engine(a, scene, n_threads, [&](const CaptureEngine& engine, int n_workers) {
     const auto capture = [&](std::size_t i) {
