@@ -50,7 +50,9 @@ void read_damaged_copies(const std::string& bytes, int n, std::uint64_t seed, co
       ++n_refused;
     }
   }
-  if (n >= 100) EXPECT_GT(n_refused, n / 20);
+  if (n >= 100) {
+    EXPECT_GT(n_refused, n / 20);
+  }
 }
 
 }  // namespace viewcell
