@@ -18,10 +18,9 @@ template <typename Owner, typename Real>
 void claim_texels(const TexelTriangleOf<Real>& triangle, Owner owner, Image<Owner>& owners,
                   Claim claim = Claim::first_drawn) {
   for_each_span(triangle, owners.width_px, owners.height_px, [&](int x0, int x1, int y) {
-    for (int x = x0; x < x1; ++x) {
-      Owner& has = owners.at(x, y);
-      if (has == 0 || (claim == Claim::lowest_owner && owner < has)) has = owner;
-    }
+    Owner* row = &owners.at(0, y);
+    for (int x = x0; x < x1; ++x)
+      if (row[x] == 0 || (claim == Claim::lowest_owner && owner < row[x])) row[x] = owner;
   });
 }
 
@@ -29,8 +28,9 @@ void claim_texels(const TexelTriangleOf<Real>& triangle, Owner owner, Image<Owne
 template <typename Owner, typename Real>
 void release_texels(const TexelTriangleOf<Real>& triangle, Owner owner, Image<Owner>& owners) {
   for_each_span(triangle, owners.width_px, owners.height_px, [&](int x0, int x1, int y) {
+    Owner* row = &owners.at(0, y);
     for (int x = x0; x < x1; ++x)
-      if (owners.at(x, y) == owner) owners.at(x, y) = 0;
+      if (row[x] == owner) row[x] = 0;
   });
 }
 
@@ -65,9 +65,11 @@ template <typename Owner>
 bool is_near_others(const Image<Owner>& owners, int x, int y, Owner owner, int reach_px) {
   const int x1 = std::min(x + reach_px, owners.width_px - 1);
   const int y1 = std::min(y + reach_px, owners.height_px - 1);
-  for (int j = std::max(0, y - reach_px); j <= y1; ++j)
+  for (int j = std::max(0, y - reach_px); j <= y1; ++j) {
+    const Owner* row = &owners.at(0, j);
     for (int i = std::max(0, x - reach_px); i <= x1; ++i)
-      if (owners.at(i, j) != 0 && owners.at(i, j) != owner) return true;
+      if (row[i] != 0 && row[i] != owner) return true;
+  }
   return false;
 }
 

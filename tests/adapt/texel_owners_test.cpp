@@ -35,8 +35,8 @@ TEST(TexelOwners, OfChartsThatMeet) {
   for (int y = 0; y < 16; ++y)
     for (int x = 0; x < 24; ++x) {
       int wanted = 0, nearest = static_cast<int>(kGutter) + 1;
-      for (const FixedTexels& t :
-           {FixedTexels{5, 6, 6, 10, 9}, FixedTexels{4, 20, 1, 23, 2}, FixedTexels{3, 9, 6, 14, 9}}) {
+      for (const FixedTexels& t : {FixedTexels{5, 6, 6, 10, 9}, FixedTexels{4, 20, 1, 23, 2},
+                                   FixedTexels{3, 9, 6, 14, 9}}) {
         const int away = std::max({t.x0 - x, x - t.x1, t.y0 - y, y - t.y1, 0});
         if (away < nearest) nearest = away, wanted = t.name | (away == 0 ? kInsideChart : 0);
       }

@@ -189,7 +189,8 @@ TEST(TextureFile, DamagedFilesNeverCrash) {
 TEST(TextureFile, LargePicturesOfAFigure) {
   const TemporaryFolder folder;
   Random random(12);
-  const ImageRgba8 color = random_image(1024, 512, random), normal = random_image(512, 1024, random);
+  const ImageRgba8 color = random_image(1024, 512, random),
+                   normal = random_image(512, 1024, random);
   const std::string file = (folder.path() / "figure.glb").string();
   write_glb(file, make_gored_figure(30, 6),
             {.base_color = encode_png(color), .normal_map = encode_png(normal), .generator = ""});
