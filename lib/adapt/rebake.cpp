@@ -162,7 +162,7 @@ ClosestPoint find_on_sheet(const Original& original, const glm::dvec3& p, const 
 }
 
 // Bilinear among the texels of the chart that was hit, of all where none is of it.
-Rgba8 fetch(const Original& original, const Hit& hit) {
+Rgba8 fetch_of_chart(const Original& original, const Hit& hit) {
   const BilinearTexels texels = bilinear_texels(original.texture, hit.texel);
   const std::uint32_t wanted = original.charts.of[hit.triangle] + 1;
   std::array<float, 4> weights = texels.weights;
@@ -196,7 +196,7 @@ void rebake_row(const TriMesh& level, const TriangleMap& map, const Original& or
     const glm::dvec3 normal = area_normal(level, level.triangles[t]);
     const ClosestPoint found = find_on_sheet(original, p, normal, hint);
     const glm::dvec2 wanted = scale * glm::dvec2(x + 0.5, y + 0.5) - 0.5;
-    out.at(x, y) = fetch(original, choose_side(original, found, p, wanted));
+    out.at(x, y) = fetch_of_chart(original, choose_side(original, found, p, wanted));
     hint = found.triangle;
   }
 }

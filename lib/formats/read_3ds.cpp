@@ -50,13 +50,13 @@ std::string read_name(ByteCursor& cursor) {
   return name;
 }
 
-void read_vertices(ByteCursor cursor, Object& object) {
+void read_vertex_chunk(ByteCursor cursor, Object& object) {
   object.positions.resize(cursor.read<std::uint16_t>());
   for (glm::vec3& p : object.positions)
     for (int k = 0; k < 3; ++k) p[k] = cursor.read<float>();
 }
 
-void read_texcoords(ByteCursor cursor, Object& object) {
+void read_texcoord_chunk(ByteCursor cursor, Object& object) {
   object.texcoords.resize(cursor.read<std::uint16_t>());
   for (glm::vec2& t : object.texcoords)
     for (int k = 0; k < 2; ++k) t[k] = cursor.read<float>();
@@ -71,7 +71,7 @@ void read_face_material(ByteCursor cursor, State& state, Object& object) {
   }
 }
 
-void read_faces(ByteCursor cursor, State& state, Object& object) {
+void read_face_chunk(ByteCursor cursor, State& state, Object& object) {
   object.triangles.resize(cursor.read<std::uint16_t>());
   object.materials.assign(object.triangles.size(), MaterialIds::kNone);
   for (Triangle& triangle : object.triangles) {
@@ -108,9 +108,9 @@ void append_object(const Object& object, State& state, const ByteCursor& cursor)
 void read_triangle_mesh(ByteCursor cursor, State& state) {
   Object object;
   for_each_chunk(cursor, [&](std::uint16_t id, ByteCursor content) {
-    if (id == kVertices) read_vertices(content, object);
-    if (id == kFaces) read_faces(content, state, object);
-    if (id == kTexcoords) read_texcoords(content, object);
+    if (id == kVertices) read_vertex_chunk(content, object);
+    if (id == kFaces) read_face_chunk(content, state, object);
+    if (id == kTexcoords) read_texcoord_chunk(content, object);
   });
   append_object(object, state, cursor);
 }

@@ -37,7 +37,7 @@ class Welder {
   std::unordered_map<glm::vec3, std::uint32_t, PositionHash> ids_;
 };
 
-TriMesh parse_binary(std::string_view bytes, const std::string& file) {
+TriMesh parse_binary_stl(std::string_view bytes, const std::string& file) {
   TriMesh mesh;
   Welder welder(mesh);
   ByteCursor cursor(bytes, file);
@@ -83,7 +83,7 @@ Triangle parse_facet(TextCursor& text, std::uint64_t facet, Welder& welder) {
   return triangle;
 }
 
-TriMesh parse_text(std::string_view bytes, const std::string& file) {
+TriMesh parse_text_stl(std::string_view bytes, const std::string& file) {
   TriMesh mesh;
   Welder welder(mesh);
   TextCursor text(bytes, file, 0);
@@ -113,8 +113,8 @@ bool is_binary_stl(std::string_view bytes) {
 }
 
 TriMesh parse_stl(std::string_view bytes, const std::filesystem::path& file) {
-  return is_binary_stl(bytes) ? parse_binary(bytes, file.string())
-                              : parse_text(bytes, file.string());
+  return is_binary_stl(bytes) ? parse_binary_stl(bytes, file.string())
+                              : parse_text_stl(bytes, file.string());
 }
 
 }  // namespace viewcell

@@ -221,7 +221,7 @@ std::string join_chunks(std::string json, const std::string& binary, const std::
 }
 
 template <typename Vector>
-void check_finite(const std::vector<Vector>& values, const char* what, const std::string& file) {
+void check_numbers(const std::vector<Vector>& values, const char* what, const std::string& file) {
   for (const Vector& value : values)
     for (int k = 0; k < Vector::length(); ++k)
       if (!std::isfinite(value[k]))
@@ -236,8 +236,8 @@ void check_input(const TriMesh& mesh, const GlbOptions& options, const std::stri
   VIEWCELL_CHECK(
       !mesh.texcoords.empty() || (options.base_color.empty() && options.normal_map.empty()),
       "a texture without texture coordinates");
-  check_finite(mesh.positions, "positions", file);
-  check_finite(mesh.texcoords, "texture coordinates", file);
+  check_numbers(mesh.positions, "positions", file);
+  check_numbers(mesh.texcoords, "texture coordinates", file);
 }
 
 }  // namespace

@@ -105,7 +105,7 @@ void read_attribute(Reader& reader, const std::string& name, PartHeader& part) {
 }
 
 // Holds the window and the compression, and sets or holds the number of chunks.
-void check_part(const Reader& reader, PartHeader& part) {
+void check_part_header(const Reader& reader, PartHeader& part) {
   if (!part.has_window) reader.fail("has no data window");
   for (const std::int32_t x : part.window)
     if (x < -kMaxCoordinate || x > kMaxCoordinate)
@@ -133,7 +133,7 @@ std::vector<PartHeader> read_headers(Reader& reader, bool many_parts) {
     if (name.empty()) break;
     PartHeader part;
     for (; !name.empty(); name = reader.string()) read_attribute(reader, name, part);
-    check_part(reader, part);
+    check_part_header(reader, part);
     parts.push_back(part);
   } while (many_parts);
   reader.set_place("header");

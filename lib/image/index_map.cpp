@@ -36,7 +36,7 @@ ImageFormat format_by_ending(const fs::path& file) {
   throw UsageError(file.string() + ": an indexing map is written as .exr or .tif");
 }
 
-OIIO::ImageSpec make_spec(const IndexMap& map, OIIO::TypeDesc type, const std::string& label) {
+OIIO::ImageSpec make_map_spec(const IndexMap& map, OIIO::TypeDesc type, const std::string& label) {
   OIIO::ImageSpec spec(map.width_px, map.height_px, 2, type);
   spec.channelnames = {kNameOfU, kNameOfV};
   spec.attribute("compression", "zip");
@@ -70,11 +70,11 @@ std::uint16_t code_of(float coordinate) {
 std::vector<unsigned char> encode_map(const IndexMap& map, ImageFormat format,
                                       const std::string& label) {
   if (format == ImageFormat::openexr)
-    return encode(make_spec(map, OIIO::TypeFloat, label), format, map.pixels.data());
+    return encode(make_map_spec(map, OIIO::TypeFloat, label), format, map.pixels.data());
   std::vector<std::uint16_t> codes;
   codes.reserve(2 * map.pixels.size());
   for (const glm::vec2& uv : map.pixels) codes.insert(codes.end(), {code_of(uv.x), code_of(uv.y)});
-  return encode(make_spec(map, OIIO::TypeUInt16, label), format, codes.data());
+  return encode(make_map_spec(map, OIIO::TypeUInt16, label), format, codes.data());
 }
 
 // --- reading ---
@@ -112,7 +112,7 @@ void check_inflation(const OIIO::ImageSpec& spec, std::size_t n_file_bytes,
 }
 
 template <typename Sample, typename Convert>
-IndexMap gather(MemoryInput& picture, const std::string& file, const Convert& convert) {
+IndexMap gather_map(MemoryInput& picture, const std::string& file, const Convert& convert) {
   const std::vector<Sample> samples = decode<Sample>(picture, 2, file);
   IndexMap map(picture.spec.width, picture.spec.height);
   for (std::size_t p = 0; p < map.pixels.size(); ++p)
@@ -149,9 +149,9 @@ IndexMap read_index_map(const fs::path& path, std::string* hash, std::string* la
   if (hash != nullptr) *hash = hash_hex(bytes);
   if (label != nullptr) *label = picture.spec.get_string_attribute("ImageDescription");
   if (picture.format == ImageFormat::tiff)  // 8 bits come out as 257 times their code
-    return gather<std::uint16_t>(picture, file,
-                                 [](std::uint16_t x) { return static_cast<float>(x / 65535.0); });
-  IndexMap map = gather<float>(picture, file, [](float x) { return x; });
+    return gather_map<std::uint16_t>(
+        picture, file, [](std::uint16_t x) { return static_cast<float>(x / 65535.0); });
+  IndexMap map = gather_map<float>(picture, file, [](float x) { return x; });
   check_numbers(map, file);
   return map;
 }

@@ -14,7 +14,7 @@ constexpr double kWantedClearance = 13;  // clearance that the band is pushed to
 // A stop is passed between kNearPass and kFarPass from its footprint's circle; a large one nearer.
 constexpr double kNearPass = 16, kFarPass = 70, kFarPassLarge = 32;
 
-bool is_large(const SceneObject& object) {
+bool is_large_mesh(const SceneObject& object) {
   return index(object.mesh) < 2;
 }  // dragon, bunny
 
@@ -31,7 +31,7 @@ std::vector<std::size_t> choose_stops(const Ground& ground, Random& random, doub
     double least = 1e300;
     for (std::size_t i = 0; i < n; ++i) {
       if (std::find(stops.begin(), stops.end(), i) != stops.end()) continue;
-      if (stops.size() == 1 && !is_large(ground.objects[i])) continue;
+      if (stops.size() == 1 && !is_large_mesh(ground.objects[i])) continue;
       const glm::dvec2 way = at(i) - here;
       const double far = glm::length(way);
       const double turn = 1 - glm::dot(way / far, heading);  // 0 straight on, 2 back
@@ -57,7 +57,7 @@ std::vector<glm::dvec2> pass_beside(const Ground& ground, const std::vector<std:
     };
     const glm::dvec2 along = at(i + 1) - at(i > 0 ? i - 1 : 0);
     const glm::dvec2 side = glm::dvec2(-along.y, along.x) / std::max(glm::length(along), 1e-9);
-    const double far = is_large(ground.objects[stops[i]]) ? kFarPassLarge : kFarPass;
+    const double far = is_large_mesh(ground.objects[stops[i]]) ? kFarPassLarge : kFarPass;
     const double off = ground.radii[stops[i]] + random.uniform(kNearPass, far);
     points.push_back(at(i) + (random.below(2) == 0 ? off : -off) * side);
   }

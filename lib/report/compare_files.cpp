@@ -77,7 +77,7 @@ void check_partners(const std::set<std::string>& names, const fs::path& folder,
                        "has no '" + name + "', which '" + folder.string() + "' has");
 }
 
-std::string format_number(double x, int n_decimals) {
+std::string format_decimals(double x, int n_decimals) {
   return format_fixed(x, n_decimals, "-");
 }
 
@@ -154,7 +154,7 @@ std::string format_table(const std::vector<NamedDistance>& pairs) {
   const auto add_row = [&](const std::string& name, const auto& value_of) {
     rows.push_back({name});
     for (const Measure& m : kMeasures)
-      rows.back().push_back(format_number(value_of(m), m.decimals));
+      rows.back().push_back(format_decimals(value_of(m), m.decimals));
   };
   for (const NamedDistance& pair : pairs)
     add_row(pair.name, [&](const Measure& m) { return pair.distance.*m.value; });

@@ -16,16 +16,16 @@ namespace {
 constexpr int kReliefSize = 128;
 
 // Texture coordinates linear * (x, z) + offset.
-TriMesh make_square(const glm::mat2& linear, const glm::vec2& offset) {
+TriMesh make_relief_square(const glm::mat2& linear, const glm::vec2& offset) {
   return make_front_square(
       [&](const glm::vec2& uv) { return linear * (2.0f * uv - 1.0f) + offset; });
 }
 
 const MeshFrame kFrame{{0, 0, 0}, std::sqrt(2.0), "z"};
 
-ImageRgba8 draw(const TriMesh& mesh, const ImageRgba8* normal_map,
-                const MeshStyle& style = plain_style(kReliefSize), const IndexMap* map = nullptr,
-                const ImageRgba8* texture = nullptr) {
+ImageRgba8 draw_relief(const TriMesh& mesh, const ImageRgba8* normal_map,
+                       const MeshStyle& style = plain_style(kReliefSize),
+                       const IndexMap* map = nullptr, const ImageRgba8* texture = nullptr) {
   return MeshRenderer(shared_context().gl(), mesh, kFrame, texture, style, map, normal_map)
       .draw(front_view());
 }
@@ -40,9 +40,9 @@ void expect_lit(const Rgba8& seen, const glm::dvec3& normal, const char* what) {
 constexpr Rgba8 kTilted{200, 150, 210, 255};
 
 TEST(NormalMap, FlatOneChangesNothing) {
-  const TriMesh square = make_square(glm::mat2(0.5f), glm::vec2(0.5f));
+  const TriMesh square = make_relief_square(glm::mat2(0.5f), glm::vec2(0.5f));
   const ImageRgba8 flat(4, 4, encode_normal({0, 0, 1}));
-  expect_lit(at_square(draw(square, &flat), 0.3, 0.2), {0.004, -1, 0.004}, "flat");
+  expect_lit(at_square(draw_relief(square, &flat), 0.3, 0.2), {0.004, -1, 0.004}, "flat");
 }
 
 // The tangent is where u grows, the bitangent where v grows, mirrored charts included: whatever the
@@ -58,7 +58,7 @@ TEST(NormalMap, IsRelativeToWhereTheTextureRuns) {
     const glm::dvec2 t(std::cos(angle), std::sin(angle));
     const glm::dvec2 b = glm::dvec2(-t.y, t.x) * (is_mirrored ? -1.0 : 1.0);
     const glm::mat2 uv_from_xz = glm::mat2(glm::transpose(glm::dmat2(t, b)));
-    const TriMesh square = make_square(0.3f * uv_from_xz, {0.2f, 0.9f});
+    const TriMesh square = make_relief_square(0.3f * uv_from_xz, {0.2f, 0.9f});
     n_mirrored += is_mirrored;
     for (const auto y : {NormalMapY::up, NormalMapY::down})
       for (const bool flip_v : {false, true}) {
@@ -67,7 +67,7 @@ TEST(NormalMap, IsRelativeToWhereTheTextureRuns) {
         style.flip_v = flip_v;
         const glm::dvec3 n = decode_normal(kTilted, y);
         const glm::dvec2 xz = n.x * t + (flip_v ? -n.y : n.y) * b;
-        const Rgba8 seen = at_square(draw(square, &map, style), 0.1, -0.2);
+        const Rgba8 seen = at_square(draw_relief(square, &map, style), 0.1, -0.2);
         expect_lit(seen, {xz.x, -n.z, xz.y}, is_mirrored ? "mirrored" : "straight");
       }
   }
@@ -75,25 +75,26 @@ TEST(NormalMap, IsRelativeToWhereTheTextureRuns) {
 }
 
 TEST(NormalMap, FollowsTheVertexNormals) {
-  TriMesh square = make_square(glm::mat2(0.5f), glm::vec2(0.5f));
+  TriMesh square = make_relief_square(glm::mat2(0.5f), glm::vec2(0.5f));
   square.normals.assign(4, glm::normalize(glm::vec3(1, -1, 0)));
   const ImageRgba8 map(4, 4, kTilted);
   const glm::dvec3 n = decode_normal(kTilted), along = glm::normalize(glm::dvec3(1, 1, 0));
-  expect_lit(at_square(draw(square, &map), 0.3, 0.2),
+  expect_lit(at_square(draw_relief(square, &map), 0.3, 0.2),
              n.x * along + n.y * glm::dvec3(0, 0, 1) + n.z * glm::dvec3(square.normals[0]),
              "tilted normals");
   MeshStyle style = plain_style(kReliefSize);
   style.normals = NormalSource::flat;
-  expect_lit(at_square(draw(square, &map, style), 0.3, 0.2), {n.x, -n.z, n.y}, "flat normals");
+  expect_lit(at_square(draw_relief(square, &map, style), 0.3, 0.2), {n.x, -n.z, n.y},
+             "flat normals");
 }
 
 // Codes are linear: the mean of two in the middle between texels; and rows run from the top.
 TEST(NormalMap, IsFilteredAsNumbers) {
-  const TriMesh square = make_square(glm::mat2(0.5f), glm::vec2(0.5f));
+  const TriMesh square = make_relief_square(glm::mat2(0.5f), glm::vec2(0.5f));
   const Rgba8 low{128, 60, 220, 255}, high{128, 230, 200, 255};
   ImageRgba8 map(1, 4, high);
   map.at(0, 2) = map.at(0, 3) = low;
-  const ImageRgba8 image = draw(square, &map);
+  const ImageRgba8 image = draw_relief(square, &map);
   const auto lit = [](const glm::dvec3& n) { return glm::dvec3(n.x, -n.z, n.y); };
   expect_lit(at_square(image, 0.3, 0.5), lit(decode_normal(high)), "above");
   expect_lit(at_square(image, 0.3, -0.5), lit(decode_normal(low)), "below");
@@ -109,7 +110,7 @@ TEST(NormalMap, IsFilteredAsNumbers) {
 
 // The indexing map is looked up first, with a texture beside and without.
 TEST(NormalMap, IsLookedUpThroughAnIndexingMap) {
-  const TriMesh square = make_square(glm::mat2(0.5f), glm::vec2(0.5f));
+  const TriMesh square = make_relief_square(glm::mat2(0.5f), glm::vec2(0.5f));
   ImageRgba8 map(8, 8, encode_normal({0, 0, 1}));
   for (int y = 0; y < 8; ++y)
     for (int x = 4; x < 8; ++x) map.at(x, y) = kTilted;
@@ -118,9 +119,9 @@ TEST(NormalMap, IsLookedUpThroughAnIndexingMap) {
   const glm::dvec3 n = decode_normal(kTilted);
   for (const ImageRgba8* texture : {static_cast<const ImageRgba8*>(nullptr), &white}) {
     const Rgba8 tilted =
-        at_square(draw(square, &map, plain_style(kReliefSize), &right, texture), -0.5, 0.3);
+        at_square(draw_relief(square, &map, plain_style(kReliefSize), &right, texture), -0.5, 0.3);
     const Rgba8 straight =
-        at_square(draw(square, &map, plain_style(kReliefSize), &left, texture), 0.5, 0.3);
+        at_square(draw_relief(square, &map, plain_style(kReliefSize), &left, texture), 0.5, 0.3);
     if (!texture) expect_lit(tilted, {n.x, -n.z, n.y}, "the right half, seen on the left");
     if (!texture) expect_lit(straight, {0.004, -1, 0.004}, "the left half, seen on the right");
     EXPECT_GT(std::abs(int{tilted[0]} - int{straight[0]}), 10);
@@ -128,13 +129,13 @@ TEST(NormalMap, IsLookedUpThroughAnIndexingMap) {
 }
 
 TEST(NormalMap, IsNotSeenUnlitAndWantsCoordinates) {
-  TriMesh square = make_square(glm::mat2(0.5f), glm::vec2(0.5f));
+  TriMesh square = make_relief_square(glm::mat2(0.5f), glm::vec2(0.5f));
   const ImageRgba8 map(4, 4, kTilted);
   MeshStyle style = plain_style(kReliefSize);
   style.lit = false;
-  EXPECT_EQ(draw(square, &map, style).pixels, draw(square, nullptr, style).pixels);
+  EXPECT_EQ(draw_relief(square, &map, style).pixels, draw_relief(square, nullptr, style).pixels);
   square.texcoords.clear();
-  EXPECT_THROW(draw(square, &map), BugError);
+  EXPECT_THROW(draw_relief(square, &map), BugError);
 }
 
 }  // namespace
