@@ -1,3 +1,6 @@
+// Source: the STL formats of 3D Systems.
+// Differs: not by ADMesh (0.98.4 tried), which reads a text that is cut in its third facet
+// as two facets, refuses blank lines and several solids, and opens files by name only.
 #include <bit>
 #include <unordered_map>
 

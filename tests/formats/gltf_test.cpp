@@ -137,6 +137,10 @@ TEST(Gltf, AccessorsAreBounded) {
   bad(R"("count": 8)", R"("count": 7)",
       "meshes[0].primitives[0]: index 11: vertex 7 does not exist");
   bad(R"("byteLength": 96})", R"("byteLength": 9600})", "bufferViews[0]: is past its buffer's end");
+  // Sums that come out within the buffer, of numbers that are not.
+  bad(R"("byteLength": 96})", R"("byteOffset": -1000, "byteLength": 1096})",
+      "bufferViews[0].byteOffset");
+  bad(R"("count": 8)", R"("count": 4611686018427387905)", "accessors[0].count");
   bad(R"("byteLength": 96})", R"("byteLength": 96, "byteStride": 8})", "byteStride");
   bad(R"("byteLength": 96})", R"("byteLength": 96, "byteStride": 16})", "accessors[0]");
   bad(R"({"buffer": 0, "byteLength": 96})", R"({"buffer": 1, "byteLength": 96})", "no such buffer");
