@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "base/error.h"
-#include "mesh/closest_on_segment.h"
 #include "rays/ray_scene.h"
 
 namespace viewcell {
@@ -19,8 +18,10 @@ constexpr double kThinSquared = 1e-16;
 constexpr double kSlack = 1e-6;
 
 glm::dvec3 closest_point_on_segment(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3& b) {
-  const double t = closest_on_segment(p, a, b);
-  return t < 1 ? a + t * (b - a) : b;  // at an end, that to the bit
+  const glm::dvec3 ab = b - a;
+  const double along = glm::dot(p - a, ab), squared = glm::dot(ab, ab);
+  if (!(along > 0)) return a;
+  return along >= squared ? b : a + (along / squared) * ab;
 }
 
 double distance_squared(const glm::dvec3& p, const glm::dvec3& q) {
@@ -145,10 +146,11 @@ struct Search {
   float radius() const { return static_cast<float>(std::sqrt(squared) * (1 + kSlack) + kSlack); }
 };
 
-bool consider_triangle(void* user, std::uint32_t id, float& radius) {
-  Search& search = *static_cast<Search*>(user);
-  if (!search.consider(id)) return false;
-  radius = search.radius();
+bool consider_triangle(RTCPointQueryFunctionArguments* arguments) {
+  const NearTriangle& near = NearTriangle::of(arguments);
+  Search& search = *static_cast<Search*>(near.user);
+  if (!search.consider(near.triangle)) return false;
+  near.ball->radius = search.radius();
   return true;
 }
 

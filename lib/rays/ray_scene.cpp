@@ -4,9 +4,7 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cmath>
 #include <glm/gtc/type_ptr.hpp>
-#include <limits>
 #include <mutex>
 #include <string>
 #include <utility>
@@ -23,21 +21,10 @@ static_assert(offsetof(RayPacket, normal_x) == offsetof(RTCRayHit16, hit.Ng_x));
 static_assert(offsetof(RayPacket, u) == offsetof(RTCRayHit16, hit.u));
 static_assert(offsetof(RayPacket, triangle) == offsetof(RTCRayHit16, hit.primID));
 static_assert(offsetof(RayPacket, instance) == offsetof(RTCRayHit16, hit.instID));
-
-void RayPacket::start(const glm::vec3& origin, float near_in) {
-  origin_x.fill(origin.x), origin_y.fill(origin.y), origin_z.fill(origin.z);
-  near.fill(near_in);
-  far.fill(std::numeric_limits<float>::infinity());
-  time.fill(0);
-  mask.fill(~0u), id.fill(0), flags.fill(0);
-  geometry.fill(kNothing), instance.fill(kNothing);
-}
-
-void RayPacket::pass_hit(int i) {
-  near[at(i)] = std::nextafter(far[at(i)], std::numeric_limits<float>::infinity());
-  far[at(i)] = std::numeric_limits<float>::infinity();
-  geometry[at(i)] = instance[at(i)] = kNothing;
-}
+static_assert(offsetof(NearTriangle, ball) == offsetof(RTCPointQueryFunctionArguments, query));
+static_assert(offsetof(NearTriangle, user) == offsetof(RTCPointQueryFunctionArguments, userPtr));
+static_assert(offsetof(NearTriangle, triangle) == offsetof(RTCPointQueryFunctionArguments, primID));
+static_assert(offsetof(NearTriangle::Ball, radius) == offsetof(RTCPointQuery, radius));
 
 // Embree reports errors to a callback, maybe on a thread of its own, and asks another before it
 // takes memory; both find this.
@@ -119,16 +106,6 @@ void reject_back_faces(const RTCFilterFunctionNArguments* args) {
   }
 }
 
-struct NearVisitor {
-  RayScene::VisitNear visit;
-  void* user;
-};
-
-bool visit_near_triangle(RTCPointQueryFunctionArguments* args) {
-  const NearVisitor& visitor = *static_cast<const NearVisitor*>(args->userPtr);
-  return visitor.visit(visitor.user, args->primID, args->query->radius);
-}
-
 }  // namespace
 
 void RayScene::Release::operator()(void* scene) const {
@@ -202,8 +179,7 @@ void RayScene::visit_near(const glm::vec3& p, float radius, VisitNear visit, voi
   query.radius = radius;
   RTCPointQueryContext context;
   rtcInitPointQueryContext(&context);
-  NearVisitor visitor{visit, user};
-  rtcPointQuery(rtc_scene(scene_.get()), &query, &context, visit_near_triangle, &visitor);
+  rtcPointQuery(rtc_scene(scene_.get()), &query, &context, visit, user);
 }
 
 }  // namespace viewcell

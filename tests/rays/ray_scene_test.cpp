@@ -100,8 +100,9 @@ TEST(RayScene, InstancesOutliveTheirMeshes) {
 TEST(RayScene, VisitsEveryTriangleWithinTheRadius) {
   const RayScene scene = Strip(200).build(RayDevice({.n_threads = 1}), {.robust = false});
   std::set<std::uint32_t> visited;
-  const auto visit = [](void* user, std::uint32_t triangle, float&) {
-    static_cast<std::set<std::uint32_t>*>(user)->insert(triangle);
+  const auto visit = [](RTCPointQueryFunctionArguments* arguments) {
+    const NearTriangle& near = NearTriangle::of(arguments);
+    static_cast<std::set<std::uint32_t>*>(near.user)->insert(near.triangle);
     return false;
   };
   scene.visit_near({5, 0.5f, 0.5f}, 10.1f, visit, &visited);
