@@ -38,6 +38,8 @@ void check_lengths(const TriMesh& mesh) {
   const std::size_t n_vertices = mesh.positions.size(), n_triangles = mesh.triangles.size();
   const auto fits = [](std::size_t n, std::size_t wanted) { return n == 0 || n == wanted; };
   VIEWCELL_CHECK(fits(mesh.normals.size(), n_vertices), mesh.normals.size(), n_vertices);
+  VIEWCELL_CHECK(fits(mesh.corner_normals.size(), 3 * n_triangles), mesh.corner_normals.size());
+  VIEWCELL_CHECK(mesh.normals.empty() || mesh.corner_normals.empty(), mesh.normals.size());
   VIEWCELL_CHECK(fits(mesh.colors.size(), n_vertices), mesh.colors.size(), n_vertices);
   VIEWCELL_CHECK(fits(mesh.texcoords.size(), 3 * n_triangles), mesh.texcoords.size());
   VIEWCELL_CHECK(fits(mesh.materials.size(), n_triangles), mesh.materials.size());

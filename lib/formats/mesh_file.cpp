@@ -11,10 +11,12 @@
 namespace viewcell {
 namespace {
 
-using Reader = TriMesh (*)(std::string_view bytes, const std::filesystem::path& file);
+using Reader = TriMesh (*)(std::string_view bytes, const std::filesystem::path& file,
+                           Remarks* remarks);
 
-TriMesh parse_gzipped_ply(std::string_view bytes, const std::filesystem::path& file) {
-  return parse_ply_mesh(gunzip(bytes, file), file);
+TriMesh parse_gzipped_ply(std::string_view bytes, const std::filesystem::path& file,
+                          Remarks* remarks) {
+  return parse_ply_mesh(gunzip(bytes, file), file, remarks);
 }
 
 struct Format {
@@ -67,20 +69,20 @@ Reader reader_by_content(std::string_view bytes) {
 
 }  // namespace
 
-TriMesh read_mesh(const std::filesystem::path& file, std::string* hash) {
+TriMesh read_mesh(const std::filesystem::path& file, MeshSource* source) {
   const std::string bytes = read_file(file);
   Reader reader = reader_by_name(file);
   if (reader == nullptr) reader = reader_by_content(bytes);
   if (reader == nullptr) refuse_format(file);
-  TriMesh mesh = reader(bytes, file);
-  if (hash != nullptr) *hash = hash_hex(bytes);
+  TriMesh mesh = reader(bytes, file, source == nullptr ? nullptr : &source->remarks);
+  if (source != nullptr) source->hash = hash_hex(bytes);
   check_mesh(mesh, file.string());
   normalize_normals(mesh);
   return mesh;
 }
 
-TriMesh read_surface(const std::filesystem::path& file, std::string* hash) {
-  TriMesh mesh = read_mesh(file, hash);
+TriMesh read_surface(const std::filesystem::path& file, MeshSource* source) {
+  TriMesh mesh = read_mesh(file, source);
   if (!(surface_area(mesh) > 0))
     throw InputError(file.string(), "", "has no area: every face is a line or a point");
   return mesh;

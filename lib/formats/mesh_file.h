@@ -5,9 +5,16 @@
 #include <filesystem>
 #include <string>
 
+#include "base/remarks.h"
 #include "mesh/mesh.h"
 
 namespace viewcell {
+
+/// What a reader knows of a file beside the mesh.
+struct MeshSource {
+  std::string hash;  ///< hash_hex of the bytes that were parsed (of a pipe too, which is read once)
+  Remarks remarks;   ///< what was passed over
+};
 
 /// Reads OBJ, PLY (also .ply.gz), OFF, STL, GLB/glTF, 3DS by the file's extension; "-" (standard
 /// input) and names without a known one, by what the file holds. Polygons are cut
@@ -16,11 +23,11 @@ namespace viewcell {
 /// which are linear. Texture coordinates have (0, 0) at the image's lower left; glTF's are turned
 /// over. A glTF scene's nodes are flattened into one mesh. Throws InputError (file, place) for
 /// anything malformed, and for a mesh with no faces.
-/// hash: hash_hex of the file's bytes, if wanted: a pipe is read once.
-TriMesh read_mesh(const std::filesystem::path& file, std::string* hash = nullptr);
+/// source: what else is known of the file, if wanted.
+TriMesh read_mesh(const std::filesystem::path& file, MeshSource* source = nullptr);
 
 /// read_mesh, and an InputError when all faces together have no area.
-TriMesh read_surface(const std::filesystem::path& file, std::string* hash = nullptr);
+TriMesh read_surface(const std::filesystem::path& file, MeshSource* source = nullptr);
 
 /// Binary little-endian PLY: positions, and normals, colours and texture coordinates (as a list
 /// "texcoord" of each face) where present. comments: lines of

@@ -126,7 +126,7 @@ void read_object(ByteCursor cursor, State& state) {
 
 }  // namespace
 
-TriMesh parse_3ds(std::string_view bytes, const std::filesystem::path& file) {
+TriMesh parse_3ds(std::string_view bytes, const std::filesystem::path& file, Remarks*) {
   ByteCursor cursor(bytes, file.string());
   if (bytes.size() < 6 || cursor.read<std::uint16_t>() != kMain)
     throw InputError(file.string(), "", "is not a 3DS file");

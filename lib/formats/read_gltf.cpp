@@ -270,7 +270,7 @@ class GltfFlattener {
 
 }  // namespace
 
-TriMesh parse_gltf(std::string_view bytes, const std::filesystem::path& file) {
+TriMesh parse_gltf(std::string_view bytes, const std::filesystem::path& file, Remarks*) {
   const GltfFile gltf = parse_gltf_file(bytes, file);
   return GltfFlattener(gltf).flatten();
 }

@@ -168,7 +168,7 @@ class ObjParser {
 
 }  // namespace
 
-TriMesh parse_obj(std::string_view bytes, const std::filesystem::path& file) {
+TriMesh parse_obj(std::string_view bytes, const std::filesystem::path& file, Remarks*) {
   return ObjParser(bytes, file).parse();
 }
 

@@ -111,7 +111,7 @@ void read_faces(TextCursor& text, const OffHeader& header, TriMesh& mesh) {
 
 }  // namespace
 
-TriMesh parse_off(std::string_view bytes, const std::filesystem::path& file) {
+TriMesh parse_off(std::string_view bytes, const std::filesystem::path& file, Remarks*) {
   TextCursor text(bytes, file.string());
   const OffHeader header = parse_header(text);
   check_counts(header, text);

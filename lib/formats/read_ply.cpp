@@ -87,7 +87,7 @@ std::vector<glm::vec2> read_texcoords(const PlyDocument& ply, const PlyColumn& f
 
 }  // namespace
 
-TriMesh parse_ply_mesh(std::string_view bytes, const std::filesystem::path& file) {
+TriMesh parse_ply_mesh(std::string_view bytes, const std::filesystem::path& file, Remarks*) {
   const PlyDocument ply = parse_ply(bytes, file.string());
   if (!ply.find("face") && ply.find("tristrips"))
     throw InputError(ply.file, "header", "holds triangle strips; only faces are read");

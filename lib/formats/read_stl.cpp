@@ -115,7 +115,7 @@ bool is_binary_stl(std::string_view bytes) {
   return bytes.size() == kHeaderBytes + kFacetBytes * std::uint64_t{n};
 }
 
-TriMesh parse_stl(std::string_view bytes, const std::filesystem::path& file) {
+TriMesh parse_stl(std::string_view bytes, const std::filesystem::path& file, Remarks*) {
   return is_binary_stl(bytes) ? parse_binary_stl(bytes, file.string())
                               : parse_text_stl(bytes, file.string());
 }

@@ -1,5 +1,6 @@
 // The readers behind read_mesh, one a format, and what they share. Private to this room and its
-// tests. bytes: the whole file; file: its name, for errors and for finding files beside it.
+// tests. bytes: the whole file; file: its name, for errors and for finding files beside it;
+// remarks: where it is to be said what was passed over.
 #pragma once
 
 #include <cstdint>
@@ -8,22 +9,29 @@
 #include <string>
 #include <string_view>
 
+#include "base/remarks.h"
 #include "mesh/mesh.h"
 
 namespace viewcell {
 
-TriMesh parse_ply_mesh(std::string_view bytes, const std::filesystem::path& file);
+TriMesh parse_ply_mesh(std::string_view bytes, const std::filesystem::path& file,
+                       Remarks* remarks = nullptr);
 /// OFF, and COFF, NOFF, STOFF and their mixtures; colours of faces are passed over.
-TriMesh parse_off(std::string_view bytes, const std::filesystem::path& file);
+TriMesh parse_off(std::string_view bytes, const std::filesystem::path& file,
+                  Remarks* remarks = nullptr);
 /// Text or binary, told apart by the size that a binary file states. Equal positions are welded.
 bool is_binary_stl(std::string_view bytes);
-TriMesh parse_stl(std::string_view bytes, const std::filesystem::path& file);
+TriMesh parse_stl(std::string_view bytes, const std::filesystem::path& file,
+                  Remarks* remarks = nullptr);
 /// Material libraries that it names must lie in its folder; they may be missing.
-TriMesh parse_obj(std::string_view bytes, const std::filesystem::path& file);
+TriMesh parse_obj(std::string_view bytes, const std::filesystem::path& file,
+                  Remarks* remarks = nullptr);
 /// glTF 2.0 as .glb or .gltf. Buffers are embedded or lie in the file's folder.
-TriMesh parse_gltf(std::string_view bytes, const std::filesystem::path& file);
+TriMesh parse_gltf(std::string_view bytes, const std::filesystem::path& file,
+                   Remarks* remarks = nullptr);
 /// 3D Studio: all objects of the file, one after another.
-TriMesh parse_3ds(std::string_view bytes, const std::filesystem::path& file);
+TriMesh parse_3ds(std::string_view bytes, const std::filesystem::path& file,
+                  Remarks* remarks = nullptr);
 
 /// The bytes inside a gzip file. Output past 64 MiB + 100 times the input, or past 4 GiB, is
 /// refused as it comes: meshes do not compress that well.

@@ -23,14 +23,19 @@ struct Box {
 
 /// Vertex attributes stand in arrays of positions' length, or are empty.
 /// Corner attributes (texture coordinates) stand in arrays of 3 x triangles, or are empty.
+/// Normals stand in one of two arrays, or in none: in corner_normals where some vertex has several.
 struct TriMesh {
   std::vector<glm::vec3> positions;
-  std::vector<glm::vec3> normals;  ///< unit, per vertex
-  std::vector<glm::vec3> colors;   ///< linear, [0, 1], per vertex
+  std::vector<glm::vec3> normals;         ///< unit, per vertex
+  std::vector<glm::vec3> corner_normals;  ///< unit, per corner
+  std::vector<glm::vec3> colors;          ///< linear, [0, 1], per vertex
   std::vector<Triangle> triangles;
   std::vector<glm::vec2> texcoords;     ///< per corner
   std::vector<std::int32_t> materials;  ///< per triangle: index into material_names; or empty
   std::vector<std::string> material_names;
+  /// A vertex is at offset + position. Not zero where floats are too coarse for the coordinates
+  /// themselves: those of maps, far from the origin.
+  glm::dvec3 offset{0};
 };
 
 Box bounding_box(const TriMesh& mesh);

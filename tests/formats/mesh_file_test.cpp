@@ -36,7 +36,7 @@ std::vector<std::array<std::array<float, 3>, 3>> shape_of(const TriMesh& mesh) {
 struct Sample {
   const char* name;
   std::string bytes;
-  TriMesh (*parse)(std::string_view, const std::filesystem::path&);
+  TriMesh (*parse)(std::string_view, const std::filesystem::path&, Remarks*);
 };
 std::vector<Sample> samples() {
   return {{"cube.off", cube_off(), parse_off},        {"cube.obj", cube_obj(), parse_obj},
@@ -67,12 +67,12 @@ TEST(ReadMesh, FormatsAreToldByContent) {
   all.push_back({"comment.obj", "# a cube\n" + cube_obj(), parse_obj});
   for (const Sample& sample : all) {
     SCOPED_TRACE(sample.name);
-    std::string hash;
+    MeshSource source;
     const TriMesh named = read_mesh(folder.add(sample.name, sample.bytes));
-    const TriMesh mesh = read_mesh(folder.add("nameless", sample.bytes), &hash);
+    const TriMesh mesh = read_mesh(folder.add("nameless", sample.bytes), &source);
     EXPECT_EQ(mesh.positions, named.positions);
     EXPECT_EQ(mesh.triangles, named.triangles);
-    EXPECT_EQ(hash, hash_hex(sample.bytes));
+    EXPECT_EQ(source.hash, hash_hex(sample.bytes));
   }
 }
 
@@ -110,10 +110,10 @@ TEST(ReadMesh, DamagedFilesNeverCrash) {
     SCOPED_TRACE(sample.name);
     for (std::size_t n = 0; n < sample.bytes.size(); n += 1 + n / 64)
       read_damaged_copies(sample.bytes.substr(0, n), n > 0, kSeed + n, [&](const auto& damaged) {
-        check_mesh(sample.parse(damaged, sample.name), sample.name);
+        check_mesh(sample.parse(damaged, sample.name, nullptr), sample.name);
       });
     read_damaged_copies(sample.bytes, 3000, kSeed, [&](const std::string& damaged) {
-      check_mesh(sample.parse(damaged, sample.name), sample.name);
+      check_mesh(sample.parse(damaged, sample.name, nullptr), sample.name);
     });
   }
 }

@@ -318,8 +318,18 @@ void Tool::say(const std::string& line) const {
   if (!common_.quiet) std::cerr << name() << ": " << line << "\n";
 }
 
+void Tool::remark(const std::filesystem::path& file, const Remarks& remarks) const {
+  for (const auto& [what, count] : remarks) {
+    say(one_line(file.string() + ": " + what) + " (" + std::to_string(count) + ")");
+    remarks_.push_back({{"file", file.filename()}, {"what", what}, {"count", count}});
+  }
+}
+
 void Tool::report(const Json& json) const {
-  if (!common_.json_file.empty()) write_file(common_.json_file, format_json(json));
+  if (common_.json_file.empty()) return;
+  Json whole = json;
+  if (!remarks_.empty()) whole["remarks"] = remarks_;
+  write_file(common_.json_file, format_json(whole));
 }
 
 }  // namespace viewcell

@@ -7,6 +7,7 @@
 
 #include "base/json.h"
 #include "base/parallel.h"
+#include "base/remarks.h"
 #include "common/command.h"
 
 namespace viewcell {
@@ -53,6 +54,8 @@ class Tool : public Command {
   Progress progress(const std::string& what) const;
   /// A line for people on stderr, unless -q.
   void say(const std::string& line) const;
+  /// What was passed over in a file: a line each on stderr, unless -q, and "remarks" of the report.
+  void remark(const std::filesystem::path& file, const Remarks& remarks) const;
   /// Writes the report where --json asks for it, if it does.
   void report(const Json& json) const;
 
@@ -64,6 +67,7 @@ class Tool : public Command {
   std::string example_;
   std::vector<NamedFile> inputs_, outputs_;
   bool is_running_ = false;
+  mutable Json remarks_ = Json::array();  // of the report: file, what, count
 };
 
 }  // namespace viewcell

@@ -2,9 +2,9 @@
 #include <cstdio>
 
 #include "base/file.h"
+#include "common/mesh_input.h"
 #include "common/provenance.h"
 #include "common/stopwatch.h"
-#include "formats/mesh_file.h"
 #include "meshdist/arguments.h"
 #include "report/table.h"
 
@@ -26,8 +26,8 @@ void write_color(const Tool& tool, const MeshdistArguments& arguments, const Tri
 
 int run(const Tool& tool, const MeshdistArguments& arguments) {
   std::array<std::string, 2> hashes;
-  const TriMesh a = read_surface(arguments.a, &hashes[0]);
-  const TriMesh b = read_surface(arguments.b, &hashes[1]);
+  const TriMesh a = read_surface_input(tool, arguments.a, &hashes[0]);
+  const TriMesh b = read_surface_input(tool, arguments.b, &hashes[1]);
   DistanceOptions options = arguments.options;
   options.n_threads = tool.common().n_threads;
   Stopwatch watch;

@@ -3,9 +3,9 @@
 #include <optional>
 
 #include "base/error.h"
+#include "common/mesh_input.h"
 #include "common/provenance.h"
 #include "common/stopwatch.h"
-#include "formats/mesh_file.h"
 #include "formats/texture_file.h"
 #include "gl/context.h"
 #include "image/index_map.h"
@@ -17,12 +17,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-MeshFrame choose_frame(MeshshotArguments& o, const TriMesh& mesh) {
+MeshFrame choose_frame(const Tool& tool, MeshshotArguments& o, const TriMesh& mesh) {
   const std::string& source = o.like_file.empty() ? o.mesh_file : o.like_file;
   const std::string up = o.up == "auto" ? up_axis_of(source) : o.up;
   if (!o.box.empty()) return make_frame(parse_box(o.box), up, "--box");
   if (o.like_file.empty()) return make_frame(box_of_triangles(mesh), up, source);
-  return make_frame(box_of_triangles(read_mesh(o.like_file, &o.like_hash)), up, source);
+  return make_frame(box_of_triangles(read_mesh_input(tool, o.like_file, &o.like_hash)), up, source);
 }
 
 struct Textures {
@@ -63,8 +63,8 @@ Json format_provenance(const Tool& tool, const MeshshotArguments& o) {
 int run(const Tool& tool, MeshshotArguments& o) {
   Stopwatch watch;
   check_shot_folder(o.shots.folder, o.shots.n_views);
-  const TriMesh mesh = read_mesh(o.mesh_file, &o.mesh_hash);
-  const MeshFrame frame = choose_frame(o, mesh);
+  const TriMesh mesh = read_mesh_input(tool, o.mesh_file, &o.mesh_hash);
+  const MeshFrame frame = choose_frame(tool, o, mesh);
   const Textures textures = read_textures(o, mesh);
   const double read_s = watch.lap_s();
   const GlContext context(parse_gl_engine(o.gl));

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <cstdio>
 
+#include "common/mesh_input.h"
 #include "common/provenance.h"
 #include "common/stopwatch.h"
-#include "formats/mesh_file.h"
 #include "pm/pm_file.h"
 #include "pmesh/commands.h"
 
@@ -64,7 +64,7 @@ int build(const Tool& tool, const PmeshArguments& a) {
   const BuildOptions& options = a.build;
   Stopwatch watch;
   std::string hash;
-  TriMesh mesh = read_mesh(a.model, &hash);
+  TriMesh mesh = read_mesh_input(tool, a.model, &hash);
   if (a.no_texture) mesh.texcoords.clear();
   if (a.flip_v)
     for (glm::vec2& uv : mesh.texcoords) uv.y = 1 - uv.y;

@@ -4,7 +4,7 @@
 
 #include "base/error.h"
 #include "base/file.h"
-#include "formats/mesh_file.h"
+#include "common/mesh_input.h"
 #include "image/compare_index_maps.h"
 #include "report/table.h"
 #include "uv/chart_map.h"
@@ -12,8 +12,9 @@
 namespace viewcell {
 namespace {
 
-Image<std::uint32_t> texels_inside(const std::string& mesh_file, const IndexMap& map) {
-  const TriMesh mesh = read_mesh(mesh_file);
+Image<std::uint32_t> texels_inside(const Tool& tool, const std::string& mesh_file,
+                                   const IndexMap& map) {
+  const TriMesh mesh = read_mesh_input(tool, mesh_file);
   if (mesh.texcoords.empty())
     throw InputError(mesh_file, "", "has no texture coordinates, so no texel lies inside");
   return make_chart_map(mesh, find_charts(mesh), map.width_px, map.height_px);
@@ -37,7 +38,7 @@ void compare_index_map_files(const Tool& tool, const std::string& reference,
                              const std::string& tested, const std::string& inside) {
   const auto [a, b] = read_pair(reference, tested);
   CompareIndexMapsOptions options;
-  if (!inside.empty()) options.counted = texels_inside(inside, a);
+  if (!inside.empty()) options.counted = texels_inside(tool, inside, a);
   const IndexMapDistance distance = compare_index_maps(a, b, options);
   if (distance.n_texels == 0) throw InputError(inside, "", "no texel lies inside its charts");
   const CommonOptions& common = tool.common();

@@ -5,9 +5,9 @@
 #include <string>
 
 #include "base/error.h"
+#include "common/mesh_input.h"
 #include "common/provenance.h"
 #include "common/tool.h"
-#include "formats/mesh_file.h"
 #include "uv/texcoord_drift.h"
 #include "uv/uv_stretch.h"
 
@@ -80,7 +80,7 @@ void finish_arguments(const Tool& tool, Arguments& a) {
 int run(const Tool& tool, const Arguments& a) {
   const std::string& output = tool.common().output;
   std::string hash;
-  const TriMesh mesh = read_mesh(a.mesh, &hash);
+  const TriMesh mesh = read_mesh_input(tool, a.mesh, &hash);
   const Subdivision out = subdivide(mesh, a.options, a.mesh);
   const Json options = {
       {"times", a.options.n_times}, {"scheme", a.scheme}, {"texcoords", a.texcoords}};

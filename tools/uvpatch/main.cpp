@@ -4,9 +4,9 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "common/mesh_input.h"
 #include "common/provenance.h"
 #include "common/tool.h"
-#include "formats/mesh_file.h"
 #include "formats/textured_obj.h"
 #include "image/checker.h"
 #include "image/header.h"
@@ -58,7 +58,8 @@ int run(Tool& tool, const UvpatchArguments& a) {
     register_beside(tool, extension);
   }
   std::string hash;
-  const TexturedPatch patch = make_textured_patch(read_mesh(a.mesh, &hash), a.patch, a.mesh);
+  const TexturedPatch patch =
+      make_textured_patch(read_mesh_input(tool, a.mesh, &hash), a.patch, a.mesh);
   write_files(tool, a, hash, picture, extension, patch);
   tool.report(format_report(patch));
   if (patch.strength != patch.strength_asked)
