@@ -4,6 +4,7 @@
 #include <array>
 #include <vector>
 
+#include "bake/start_levels.h"
 #include "bake/vertex_weights.h"
 #include "bundle/representation.h"
 #include "cells/cells.h"
@@ -23,19 +24,12 @@ struct BakeOptions {
   WeightOptions weights;
 };
 
-/// One level of detail of a mesh, ready to be placed.
-struct StartLevel {
-  TriMesh mesh;                              ///< model space
-  std::vector<std::uint32_t> source_vertex;  ///< numbers in the original mesh
-  double error = 0;                          ///< model units
-};
-
 /// What baking needs to know of a scene besides the captures. Read-only once built.
 struct BakeScene {
   const Scene& scene;
   const CellSet& cells;
-  std::vector<std::vector<StartLevel>> levels;  ///< by mesh, finest first
-  std::vector<Box> boxes;                       ///< by object, world
+  std::vector<StartLevels> meshes;  ///< by mesh
+  std::vector<Box> boxes;           ///< by object, world
 };
 
 /// Builds the levels of every mesh: some seconds for a million triangles.
@@ -48,7 +42,7 @@ struct CellObject {
   Representation kind = Representation::inside;
   const StartLevel* level = nullptr;  ///< of the BakeScene; null inside, where the rest is empty
   ViewVertices vertices;              ///< the level's, world; no weights, no views yet
-  std::vector<bool> is_back_facing;   ///< by triangle of the level: to the whole cell
+  FaceSides sides;                    ///< of the level's triangles
 };
 
 /// Inside the cell, or one view where the self-occluding error is below T_s, else several. Every
@@ -60,13 +54,14 @@ CellObject choose_representation(const BakeScene& bake, CellId cell, ObjectId ob
 struct CellMesh {
   ObjectId object{};
   ViewVertices vertices;
-  std::vector<std::uint32_t> source_vertex;  ///< numbers in the object's original mesh
+  std::vector<std::uint32_t> source_vertex;  ///< numbers in the object's mesh as drawn (SceneMesh)
   std::vector<Triangle> triangles;
   std::vector<std::uint8_t> views;  ///< per triangle: the views that its three corners share
 };
 
 struct CellMeshCounts {
-  std::size_t n_original = 0;     ///< triangles of the object
+  std::size_t n_original = 0;     ///< triangles of the object; n_start and what follows count
+                                  ///< twins (SplitMesh) once, n_out does not
   std::size_t n_start = 0;        ///< of the level that collapsing started from
   std::size_t n_back_facing = 0;  ///< of those, back-facing to the whole cell
   std::size_t n_out = 0;

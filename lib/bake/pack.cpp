@@ -90,15 +90,18 @@ BundleObject describe(const CellMesh& mesh, Representation kind) {
   return out;
 }
 
-// How far the mesh's vertices lie off the object's own, along the normals.
+// How far the mesh's vertices lie off the object's own, along the surface's normals.
 void append_offsets(const Scene& scene, const CellMesh& mesh, std::vector<std::int16_t>& offsets) {
   const SceneObject& object = scene.objects[index(mesh.object)];
-  const TriMesh& original = scene.mesh_of(object).mesh;
+  const SceneMesh& original = scene.mesh_of(object);
   for (std::size_t v = 0; v < mesh.source_vertex.size(); ++v) {
-    const glm::dvec3 at =
-        object.world_from_model(glm::dvec3(original.positions[mesh.source_vertex[v]]));
-    const double along =
-        glm::dot(glm::dvec3(mesh.vertices.positions[v]) - at, glm::dvec3(mesh.vertices.normals[v]));
+    const std::uint32_t source = mesh.source_vertex[v];
+    const glm::dvec3 at = object.world_from_model(glm::dvec3(original.mesh.positions[source]));
+    const glm::dvec3 normal(
+        original.weld.is_empty()
+            ? mesh.vertices.normals[v]
+            : glm::vec3(object.rotation * glm::dvec3(original.weld.normals[source])));
+    const double along = glm::dot(glm::dvec3(mesh.vertices.positions[v]) - at, normal);
     offsets.push_back(
         static_cast<std::int16_t>(std::lround(std::clamp(along / kOffsetUnit, -32767.0, 32767.0))));
   }

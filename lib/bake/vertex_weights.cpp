@@ -46,16 +46,18 @@ double weight_of(PixelCategory category, const WeightOptions& options) {
   return options.invisible;
 }
 
-// For each vertex, whether some triangle of its is front-facing to the eye.
-std::vector<bool> find_front_vertices(std::span<const Triangle> triangles,
+// For each vertex, whether some triangle of its shows the eye a side.
+std::vector<bool> find_front_vertices(std::span<const Triangle> triangles, const FaceSides& sides,
                                       const std::vector<glm::vec3>& positions,
                                       const glm::dvec3& eye) {
   std::vector<bool> front(positions.size());
-  for (const Triangle& t : triangles) {
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    const Triangle& t = triangles[i];
     const glm::dvec3 a(positions[t[0]]);
     const glm::dvec3 normal =
         glm::cross(glm::dvec3(positions[t[1]]) - a, glm::dvec3(positions[t[2]]) - a);
-    if (glm::dot(normal, a - eye) < 0)
+    const double away = glm::dot(normal, a - eye);
+    if (away < 0 || (away > 0 && sides.shows_back(i)))
       for (const std::uint32_t v : t) front[v] = true;
   }
   return front;
@@ -81,20 +83,21 @@ PixelCategory category_at(const ClassifiedView& view, const glm::dvec3& world) {
   return most;
 }
 
-void weigh_vertices(std::span<const Triangle> triangles, const std::vector<bool>& is_back_facing,
+void weigh_vertices(std::span<const Triangle> triangles, const FaceSides& sides,
                     std::span<const ClassifiedView> views, const WeightOptions& options,
                     ViewVertices& vertices) {
   const std::size_t n = vertices.positions.size();
   std::vector<bool> is_front(n);
   for (std::size_t t = 0; t < triangles.size(); ++t)
-    if (!is_back_facing[t])
+    if (!sides.is_back_facing[t])
       for (const std::uint32_t v : triangles[t]) is_front[v] = true;
   vertices.views.assign(n, 0);
   vertices.weights.resize(n);
   for (std::size_t v = 0; v < n; ++v)
     vertices.weights[v] = static_cast<float>(is_front[v] ? options.invisible : options.back_facing);
   for (const ClassifiedView& view : views) {
-    const auto faces_view = find_front_vertices(triangles, vertices.positions, view.tile.view.eye);
+    const auto faces_view =
+        find_front_vertices(triangles, sides, vertices.positions, view.tile.view.eye);
     for (std::size_t v = 0; v < n; ++v) {
       if (!is_front[v] || !faces_view[v]) continue;
       const PixelCategory category = category_at(view, glm::dvec3(vertices.positions[v]));

@@ -34,10 +34,20 @@ struct ClassifiedView {
 /// that one alone vertices of silhouettes would land on the background.
 PixelCategory category_at(const ClassifiedView& view, const glm::dvec3& world);
 
+/// By triangle: from where its sides are seen.
+struct FaceSides {
+  std::vector<bool> is_back_facing;  ///< to the whole cell
+  std::vector<bool> is_two_sided;    ///< its back is drawn too; or empty: none's is
+
+  bool shows_back(std::size_t triangle) const {
+    return !is_two_sided.empty() && is_two_sided[triangle];
+  }
+};
+
 /// Fills vertices.weights and vertices.views from positions. A vertex all of whose triangles are
 /// marked back-facing is back-facing; of the others each takes the largest of its weights over the
 /// views, and the bits of the views that show it, facing them.
-void weigh_vertices(std::span<const Triangle> triangles, const std::vector<bool>& is_back_facing,
+void weigh_vertices(std::span<const Triangle> triangles, const FaceSides& sides,
                     std::span<const ClassifiedView> views, const WeightOptions& options,
                     ViewVertices& vertices);
 

@@ -3,6 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
+
+#include "bake/start_levels.h"
+#include "pm/qem.h"
 
 namespace viewcell {
 namespace {
@@ -26,6 +30,54 @@ ViewMetric::ViewMetric(const ViewVertices& vertices, std::span<const Triangle> t
       quadrics_(vertices.positions.size()) {
   add_views();
   add_quadrics(triangles);
+  if (options.has_rim) add_rims(triangles);
+  find_small_parts(triangles);
+}
+
+// Planes through the edges of rims at right angles to their triangles; a rim that no view shows may
+// go as it likes.
+void ViewMetric::add_rims(std::span<const Triangle> triangles) {
+  rims_ = make_boundary_quadrics(vertices_.positions, triangles, origin_, {});
+  for (std::size_t v = 0; v < rims_.size(); ++v)
+    if (vertices_.views[v] == 0) rims_[v] = {};
+}
+
+void ViewMetric::find_small_parts(std::span<const Triangle> triangles) {
+  std::vector<double> px(options_.part_diagonals.begin(), options_.part_diagonals.end());
+  std::vector<float> scale(px.size(), 0);
+  std::vector<bool> is_shown(px.size(), false);
+  for (std::size_t v = 0; v < options_.parts.size(); ++v) {
+    const std::uint32_t part = options_.parts[v];
+    scale[part] = std::max(scale[part], px_per_unit_[v]);
+    if (vertices_.views[v] != 0) is_shown[part] = true;
+  }
+  std::vector<bool> small(px.size());
+  bool any = false;
+  for (std::size_t p = 0; p < px.size(); ++p) {
+    small[p] = is_shown[p] && px[p] * scale[p] < kSmallPart * options_.max_drift_px;
+    any |= small[p];
+  }
+  if (!any) return;
+  is_small_part_ = std::move(small);
+  for (const Triangle& t : triangles)
+    if (is_small(t[0])) most_lost_px2_ += kMostLost * area_px2(t[0], t[1], t[2]);
+}
+
+double ViewMetric::area_px2(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
+  const glm::dvec3 at(vertices_.positions[a]);
+  const glm::dvec3 across =
+      glm::cross(glm::dvec3(vertices_.positions[b]) - at, glm::dvec3(vertices_.positions[c]) - at);
+  return 0.5 * glm::length(across) * px_per_unit_[a] * px_per_unit_[a];
+}
+
+// What the star of u covers less when it collapses into v, by its area, whichever way it faces.
+double ViewMetric::loss_px2(const CollapseMesh& mesh, std::uint32_t u, std::uint32_t v) const {
+  double loss = 0;
+  mesh.for_each_triangle(u, [&](std::uint32_t a, std::uint32_t b) {
+    loss += area_px2(u, a, b);
+    if (a != v && b != v) loss -= area_px2(v, a, b);
+  });
+  return loss;
 }
 
 void ViewMetric::add_quadrics(std::span<const Triangle> triangles) {
@@ -85,14 +137,19 @@ double ViewMetric::drift_px(std::uint32_t u, std::uint32_t v) const {
   const double of_u = quadrics_[u].value(p);
   const double weight = quadrics_[u].weight + quadrics_[v].weight;
   const double area_px = weight * px_per_unit_[v] * px_per_unit_[v];
-  return std::max(
+  const double of_patch = std::max(
       rms_px(of_u + quadrics_[v].value(p), weight) * std::sqrt(std::sqrt(area_px / kPatchPx)),
       kOwnShare * rms_px(of_u, quadrics_[u].weight));
+  if (rims_.empty() || !(rims_[u].weight > 0)) return of_patch;
+  const double of_rim = rims_[u].value(p);
+  return std::max({of_patch, kOwnShare * rms_px(of_rim, rims_[u].weight),
+                   rms_px(of_rim + rims_[v].value(p), rims_[u].weight + rims_[v].weight)});
 }
 
 float ViewMetric::cost(std::uint32_t u, std::uint32_t v) const {
   constexpr float kNever = std::numeric_limits<float>::infinity();
   if (vertices_.weights[u] > vertices_.weights[v]) return kNever;
+  if (!options_.is_shared.empty() && options_.is_shared[u]) return kNever;
   if (options_.keep_common_views) {
     const unsigned a = vertices_.views[u], b = vertices_.views[v];
     if ((a & b) == 0 && (a | b) != 0) return kNever;
@@ -106,6 +163,7 @@ float ViewMetric::cost(std::uint32_t u, std::uint32_t v) const {
 
 // The least of a quadric on a line p + t n: its derivative is linear in t.
 float ViewMetric::offset(std::uint32_t v) const {
+  if (!options_.is_shared.empty() && options_.is_shared[v]) return 0;
   const Quadric& q = quadrics_[v];
   const glm::dvec3 n(vertices_.normals[v]);
   const glm::dvec3 p = glm::dvec3(vertices_.positions[v]) - origin_;
@@ -116,8 +174,18 @@ float ViewMetric::offset(std::uint32_t v) const {
   return static_cast<float>(std::clamp(t, -most, most));
 }
 
-// A triangle whose corners share a view must not come to share none: no view could texture it.
 bool ViewMetric::allows(const CollapseMesh& mesh, std::uint32_t u, std::uint32_t v) const {
+  if (!keeps_common_views(mesh, u, v)) return false;
+  asked_px2_ = 0;
+  if ((vertices_.views[u] | vertices_.views[v]) != 0 && mesh.is_lone_triangle(u, v)) return false;
+  if (!is_small(u)) return true;
+  asked_px2_ = loss_px2(mesh, u, v);
+  return lost_px2_ + asked_px2_ <= most_lost_px2_;
+}
+
+// A triangle whose corners share a view must not come to share none: no view could texture it.
+bool ViewMetric::keeps_common_views(const CollapseMesh& mesh, std::uint32_t u,
+                                    std::uint32_t v) const {
   if (!options_.keep_common_views) return true;
   const auto& views = vertices_.views;
   bool keeps = true;

@@ -32,10 +32,16 @@ MeshLevels make_single_level(const TriMesh& mesh) {
   return levels;
 }
 
-MeshLevels build_mesh_levels(const TriMesh& mesh, const DetailOptions& options) {
+MeshLevels build_mesh_levels(const TriMesh& mesh, const DetailOptions& options,
+                             const VertexWeld& weld) {
   MeshLevels levels;
-  for (const DetailLevel& level : build_meshopt_levels(mesh, options))
-    levels.push_back({extract_level(mesh, level.triangles), level.error});
+  TriMesh welded;
+  if (!weld.is_empty())
+    welded.positions = mesh.positions, welded.triangles = weld.weld(mesh.triangles);
+  for (const DetailLevel& level : build_meshopt_levels(weld.is_empty() ? mesh : welded, options))
+    levels.push_back(
+        {extract_level(mesh, choose_drawn_vertices(mesh, weld, level.triangles)), level.error});
+  if (!weld.is_empty()) levels[0].mesh = optimize_order(mesh);
   return levels;
 }
 
@@ -43,8 +49,9 @@ std::vector<MeshLevels> build_scene_levels(const Scene& scene, bool with_lod,
                                            const DetailOptions& options, int n_threads) {
   std::vector<MeshLevels> levels(scene.meshes.size());
   parallel_for(scene.meshes.size(), n_threads, [&](std::size_t i) {
-    const TriMesh& mesh = scene.meshes[i].mesh;
-    levels[i] = with_lod ? build_mesh_levels(mesh, options) : make_single_level(mesh);
+    const SceneMesh& mesh = scene.meshes[i];
+    levels[i] =
+        with_lod ? build_mesh_levels(mesh.mesh, options, mesh.weld) : make_single_level(mesh.mesh);
   });
   return levels;
 }

@@ -25,9 +25,10 @@ TriMesh optimize_order(const TriMesh& mesh);
 /// Only the original, in optimized order.
 MeshLevels make_single_level(const TriMesh& mesh);
 
-/// build_meshopt_levels, each level with vertices of its own, in optimized order.
-/// Cost: some 0.3 s a level and million triangles.
-MeshLevels build_mesh_levels(const TriMesh& mesh, const DetailOptions& options = {});
+/// build_meshopt_levels of the welded surface, each level with vertices of its own, in optimized
+/// order. Cost: some 0.3 s a level and million triangles.
+MeshLevels build_mesh_levels(const TriMesh& mesh, const DetailOptions& options = {},
+                             const VertexWeld& weld = {});
 
 /// build_mesh_levels or make_single_level of every mesh of the scene, by MeshId.
 std::vector<MeshLevels> build_scene_levels(const Scene& scene, bool with_lod,

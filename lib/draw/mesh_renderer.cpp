@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "draw/index_map_lookup.h"
 #include "draw/shading.h"
+#include "mesh/split_corners.h"
 #include "mesh/tangents.h"
 #include "report/contact_sheet.h"
 #include "scene/scene.h"
@@ -146,9 +147,10 @@ std::string fragment_source(const MeshStyle& style, const Surface& surface) {
          "  color = vec4(srgb_encode(wire_color(lit_color(surface_color()))), 1);\n}\n";
 }
 
+// By corner; empty: each triangle's own.
 std::vector<glm::vec3> choose_normals(const TriMesh& mesh, NormalSource source) {
-  if (source == NormalSource::mesh && !mesh.normals.empty()) return mesh.normals;
-  return source == NormalSource::flat ? std::vector<glm::vec3>() : make_vertex_normals(mesh);
+  if (source == NormalSource::flat) return {};
+  return source == NormalSource::mesh ? make_corner_normals(mesh) : compute_corner_normals(mesh);
 }
 
 glm::vec3 flat_normal(const TriMesh& mesh, const Triangle& t) {
@@ -160,7 +162,7 @@ glm::vec3 flat_normal(const TriMesh& mesh, const Triangle& t) {
 glm::vec3 normal_of(const TriMesh& mesh, const std::vector<glm::vec3>& normals, std::size_t t,
                     std::size_t k) {
   const Triangle& triangle = mesh.triangles[t];
-  return normals.empty() ? flat_normal(mesh, triangle) : normals[triangle[k]];
+  return normals.empty() ? flat_normal(mesh, triangle) : normals[3 * t + k];
 }
 
 glm::vec2 uv_of(const TriMesh& mesh, const MeshStyle& style, std::size_t corner) {

@@ -213,7 +213,8 @@ Subdivision subdivide(const TriMesh& mesh, const SubdivideOptions& options,
   Layer surface = split_times(welded.layer, options.n_times, position_rule(options));
   out.mesh.positions.assign(surface.values.begin(), surface.values.end());
   out.mesh.triangles = std::move(surface.triangles);
-  if (!mesh.normals.empty()) out.mesh.normals = make_vertex_normals(out.mesh);
+  if (!mesh.normals.empty() || !mesh.corner_normals.empty())
+    out.mesh.normals = make_vertex_normals(out.mesh);
   if (!mesh.materials.empty()) {
     const std::size_t n_children = out.mesh.triangles.size() / welded.source_triangle.size();
     for (const std::size_t t : welded.source_triangle)

@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "base/error.h"
+#include "mesh/split_corners.h"
 #include "mesh/topology.h"
 
 // Follows: MikkTSpace [Mikkelsen 2008, Simulation of wrinkled surfaces revisited], which glTF 2.0
@@ -89,12 +90,12 @@ struct Means {
 }  // namespace
 
 std::vector<glm::vec3> make_corner_normals(const TriMesh& mesh) {
-  const std::vector<glm::vec3> of_vertices =
-      mesh.normals.empty() ? make_vertex_normals(mesh) : mesh.normals;
+  if (!mesh.corner_normals.empty()) return mesh.corner_normals;
+  if (mesh.normals.empty()) return compute_corner_normals(mesh);
   std::vector<glm::vec3> out;
   out.reserve(3 * mesh.triangles.size());
   for (const Triangle& t : mesh.triangles)
-    for (const std::uint32_t v : t) out.push_back(of_vertices[v]);
+    for (const std::uint32_t v : t) out.push_back(mesh.normals[v]);
   return out;
 }
 

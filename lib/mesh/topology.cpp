@@ -162,6 +162,45 @@ std::vector<std::uint32_t> match_positions(const TriMesh& mesh) {
   return first;
 }
 
+std::vector<std::uint32_t> match_twins(std::span<const Triangle> triangles,
+                                       std::size_t n_vertices) {
+  struct Row {
+    std::uint32_t lower, higher;  // of the vertices other than the least
+    bool turns_back;
+    std::uint32_t triangle;
+    auto key() const { return std::tie(lower, higher, turns_back, triangle); }
+  };
+  auto buckets = fill_buckets<Row>(n_vertices, [&](const auto& emit) {
+    for (std::uint32_t t = 0; t < triangles.size(); ++t) {
+      const Triangle& v = triangles[t];
+      if (repeats_index(v)) continue;
+      const auto least = static_cast<std::size_t>(std::min_element(v.begin(), v.end()) - v.begin());
+      const std::uint32_t second = v[(least + 1) % 3], third = v[(least + 2) % 3];
+      emit(v[least], Row{std::min(second, third), std::max(second, third), second > third, t});
+    }
+  });
+  std::vector<std::uint32_t> twins;
+  for (std::size_t v = 0; v < n_vertices; ++v) {
+    const std::span<Row> rows = buckets.of(v);
+    std::sort(rows.begin(), rows.end(),
+              [](const Row& a, const Row& b) { return a.key() < b.key(); });
+    for (std::size_t first = 0, last; first < rows.size(); first = last) {
+      std::size_t turned = first;  // the first that turns back
+      for (last = first; last < rows.size() && rows[last].lower == rows[first].lower &&
+                         rows[last].higher == rows[first].higher;
+           ++last)
+        turned += !rows[last].turns_back;
+      const std::size_t n = std::min(turned - first, last - turned);
+      if (n > 0 && twins.empty()) twins.assign(triangles.size(), kNoTwin);
+      for (std::size_t i = 0; i < n; ++i) {
+        twins[rows[first + i].triangle] = rows[turned + i].triangle;
+        twins[rows[turned + i].triangle] = rows[first + i].triangle;
+      }
+    }
+  }
+  return twins;
+}
+
 MeshDefects clean_mesh(TriMesh& mesh) {
   MeshDefects defects;
   const std::vector<bool> is_duplicate = find_duplicates(mesh);

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include "mesh/mesh.h"
 
@@ -39,6 +40,12 @@ struct MeshDefects {
 
 /// Per vertex: the lowest number of a vertex at its position. O(n log n).
 std::vector<std::uint32_t> match_positions(const TriMesh& mesh);
+
+inline constexpr std::uint32_t kNoTwin = 0xffffffffu;
+
+/// Per triangle: its twin, one of the same vertices in the opposite turn, or kNoTwin. Each is the
+/// twin of one, of several the lowest. Empty where no triangle has one. O(n log n).
+std::vector<std::uint32_t> match_twins(std::span<const Triangle> triangles, std::size_t n_vertices);
 
 /// Removes triangles that show nothing; the rest keep their order and their attributes. Vertices
 /// stay, so their numbers do. The two sides of a sheet (the same vertices in opposite turns) stay.

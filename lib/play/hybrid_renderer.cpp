@@ -17,6 +17,7 @@ struct HybridRenderer::DrawBlock {
   glm::vec4 rows[6] = {};
   glm::ivec4 regions[2] = {};
   glm::vec4 codes[2] = {};
+  glm::vec4 eyes[3] = {};
 };
 
 namespace {
@@ -27,9 +28,14 @@ std::size_t uniform_alignment(const Gl& gl) {
   return static_cast<std::size_t>(alignment);
 }
 
-GlProgram make_program(const Gl& gl, const char* name, int n_views, const Lighting& lighting) {
-  return GlProgram(gl, name, make_hybrid_vertex_glsl(n_views, lighting),
-                   make_hybrid_fragment_glsl(n_views));
+GlProgram make_program(const Gl& gl, const char* name, int n_views, DrawnSides sides,
+                       const Lighting& lighting) {
+  return GlProgram(gl, name, make_hybrid_vertex_glsl(n_views, sides, lighting),
+                   make_hybrid_fragment_glsl(n_views, sides));
+}
+
+bool shows_both_sides(const Scene& scene, const SceneObject& object) {
+  return scene.material_of(object).double_sided || scene.mesh_of(object).has_twins;
 }
 
 glm::vec3 middle_of(const ReadyObject& object) {
@@ -65,12 +71,20 @@ HybridRenderer::HybridRenderer(const Gl& gl, const Scene& scene, const HybridOpt
     : gl_(gl),
       scene_(scene),
       options_(options),
-      two_views_(make_program(gl, "two views", 2, scene.lighting)),
-      one_view_(make_program(gl, "one view", 1, scene.lighting)),
-      lit_(make_program(gl, "lit mesh", 0, scene.lighting)),
-      edges_(gl, "edges", make_hybrid_vertex_glsl(0, scene.lighting), make_edge_fragment_glsl()) {
+      fronts_(make_programs(DrawnSides::front)),
+      edges_(gl, "edges", make_hybrid_vertex_glsl(0, DrawnSides::front, scene.lighting),
+             make_edge_fragment_glsl()) {
+  for (const SceneObject& object : scene.objects)
+    if (!both_sides_ && shows_both_sides(scene, object))
+      both_sides_ = make_programs(DrawnSides::both);
   const std::size_t alignment = uniform_alignment(gl);
   block_stride_ = (sizeof(DrawBlock) + alignment - 1) / alignment * alignment;
+}
+
+HybridRenderer::Programs HybridRenderer::make_programs(DrawnSides sides) const {
+  return {make_program(gl_, "two views", 2, sides, scene_.lighting),
+          make_program(gl_, "one view", 1, sides, scene_.lighting),
+          make_program(gl_, "lit mesh", 0, sides, scene_.lighting)};
 }
 
 void HybridRenderer::upload_blocks(const ResidentCell& cell, const HybridPlan& plan,
@@ -87,11 +101,13 @@ void HybridRenderer::upload_blocks(const ResidentCell& cell, const HybridPlan& p
                                                  : kind_color(ready.kind),
                   1);
     block.weights = {draw.views.weight[0], draw.views.weight[1], 0, 0};
+    block.eyes[2] = glm::vec4(eye, 1);
     for (std::size_t i = 0; i < 2; ++i) {
       if (draw.views.view[i] < 0) continue;
       const ViewProjection& p = cell.projections[std::size_t{draw.slot} * kViews +
                                                  static_cast<std::size_t>(draw.views.view[i])];
       block.rows[3 * i] = p.row_s, block.rows[3 * i + 1] = p.row_t, block.rows[3 * i + 2] = p.row_q;
+      block.eyes[i] = glm::vec4(p.eye, 1);
       block.regions[i] = {p.first_texel, p.width_px, p.height_px, 0};
       block.codes[i] = {p.code_scale, p.code_bias,
                         1 / depth_tolerance(p, eye, middle_of(ready) - origin, options_), 0};
@@ -120,17 +136,28 @@ void HybridRenderer::draw(const Camera& camera, const ResidentCell& cell, GLuint
   cell.array.bind();
   gl_.BindTextureUnit(0, texels);
   const glm::mat4 clip_from_local(glm::translate(clip_from_world(camera), cell.ready->origin));
-  for (const GlProgram* program : {&two_views_, &one_view_, &lit_, &edges_})
-    gl_.ProgramUniformMatrix4fv(program->id(), program->uniform("clip_from_local"), 1, GL_FALSE,
+  const auto set_clip = [&](const GlProgram& program) {
+    gl_.ProgramUniformMatrix4fv(program.id(), program.uniform("clip_from_local"), 1, GL_FALSE,
                                 glm::value_ptr(clip_from_local));
+  };
+  for (const Programs* p : {&fronts_, both_sides_ ? &*both_sides_ : &fronts_})
+    set_clip(p->two_views), set_clip(p->one_view), set_clip(p->lit);
+  set_clip(edges_);
   const GlProgram* current = nullptr;
   for (std::size_t i = 0; i < plan.outside.size(); ++i) {
     const bool blends = plan.outside[i].views.weight[1] > 0;
-    const GlProgram& program =
-        style != HybridStyle::textured ? lit_ : (blends ? two_views_ : one_view_);
+    const SceneObject& object =
+        scene_.objects[index(cell.ready->objects[plan.outside[i].slot].object)];
+    const Programs& programs = shows_both_sides(scene_, object) ? *both_sides_ : fronts_;
+    const GlProgram& program = style != HybridStyle::textured
+                                   ? programs.lit
+                                   : (blends ? programs.two_views : programs.one_view);
     if (&program != current) program.use();
     current = &program;
+    const bool culls = !scene_.material_of(object).double_sided;
+    if (!culls) gl_.Disable(GL_CULL_FACE);
     draw_one(cell, plan, i);
+    if (!culls) gl_.Enable(GL_CULL_FACE);
   }
   if (style == HybridStyle::wireframe) draw_edges(cell, plan);
 }

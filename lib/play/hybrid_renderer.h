@@ -1,7 +1,10 @@
 // Draws a cell's outside objects with projective textures.
 #pragma once
 
+#include <optional>
+
 #include "gl/framebuffer.h"
+#include "play/hybrid_shaders.h"
 #include "play/residency.h"
 
 namespace viewcell {
@@ -43,6 +46,10 @@ class HybridRenderer {
 
  private:
   struct DrawBlock;
+  struct Programs {
+    GlProgram two_views, one_view, lit;
+  };
+  Programs make_programs(DrawnSides sides) const;
   void upload_blocks(const ResidentCell& cell, const HybridPlan& plan, const glm::vec3& eye,
                      HybridStyle style);
   void draw_one(const ResidentCell& cell, const HybridPlan& plan, std::size_t i) const;
@@ -51,7 +58,9 @@ class HybridRenderer {
   const Gl& gl_;
   const Scene& scene_;
   HybridOptions options_;
-  GlProgram two_views_, one_view_, lit_, edges_;
+  Programs fronts_;
+  std::optional<Programs> both_sides_;  // where some object needs it
+  GlProgram edges_;
   GlBuffer blocks_;
   std::size_t block_stride_ = 0;
   std::vector<char> staged_;

@@ -12,6 +12,7 @@ layout(std140, binding = 0) uniform DrawBlock {
   vec4 rows[6];        // s, t, q of views 0, 1
   ivec4 regions[2];    // first texel, width, height
   vec4 codes[2];       // scale, bias, 1 / tolerance
+  vec4 eyes[3];        // of views 0, 1, and of the frame; cell-local
 };
 )";
 
@@ -23,12 +24,14 @@ std::string number(int i) {
 // whole draw is read from the block by the fragments instead: covered pixels are few, and a
 // software rasteriser sets up every varying for every triangle. It also runs both sides of every
 // branch, so the colour for what no view shows is made at the vertices.
-std::string varyings(const std::string& direction, int n_views) {
+std::string varyings(const std::string& direction, int n_views, DrawnSides sides) {
   std::string out = "layout(location = 0) " + direction + " vec3 lit;  // encoded\n";
   for (int k = 0; k < n_views; ++k)
     out +=
         "layout(location = " + number(1 + k) + ") " + direction + " vec3 stq" + number(k) + ";\n";
-  return out;
+  if (sides == DrawnSides::front) return out;
+  return out + "layout(location = 3) " + direction + " vec3 lit_back;\n" + "layout(location = 4) " +
+         direction + " vec3 local;\n";
 }
 
 // Four texels around the point, weighted bilinearly and by how near their depth is to the
@@ -57,34 +60,53 @@ vec4 guarded_fetch(vec3 stq, ivec4 region, vec4 code) {
 }
 )";
 
+// lit_color(); and how much view k counts, which on the other side of the triangle is nothing.
+const char* kFrontOnly = R"(
+vec3 lit_color() { return lit; }
+float side_weight(int k) { return 1.0; }
+)";
+const char* kBothSides = R"(
+vec3 lit_color() { return gl_FrontFacing ? lit : lit_back; }
+float side_weight(int k) {
+  vec3 across = cross(dFdx(local), dFdy(local));
+  return dot(across, eyes[2].xyz - local) * dot(across, eyes[k].xyz - local) > 0.0 ? 1.0 : 0.0;
+}
+)";
+
 const char* kLitMain = R"(
-void main() { color = vec4(lit, 254.0 / 255.0); }
+void main() { color = vec4(lit_color(), 254.0 / 255.0); }
 )";
 
 // Below a weight of 0.02, at about 1.6 tolerances from every texel, no view shows the
 // fragment.
 std::string make_textured_main(int n_views) {
-  std::string sum = "guarded_fetch(stq0, regions[0], codes[0])";
+  std::string sum = "side_weight(0) * guarded_fetch(stq0, regions[0], codes[0])";
   if (n_views == 2)
-    sum = "weights.x * " + sum + " + weights.y * guarded_fetch(stq1, regions[1], codes[1])";
+    sum = "weights.x * " + sum +
+          " + weights.y * side_weight(1) * guarded_fetch(stq1, regions[1], codes[1])";
   return "void main() {\n  vec4 sum = " + sum +
          ";\n"
          "  bool is_seen = sum.w > 0.02;\n"
-         "  color = vec4(is_seen ? sum.rgb / sum.w : lit, is_seen ? 1.0 : 254.0 / 255.0);\n}\n";
+         "  color = vec4(is_seen ? sum.rgb / sum.w : lit_color(), is_seen ? 1.0 : 254.0 / "
+         "255.0);\n}\n";
 }
 
 }  // namespace
 
-std::string make_hybrid_vertex_glsl(int n_views, const Lighting& lighting) {
+std::string make_hybrid_vertex_glsl(int n_views, DrawnSides sides, const Lighting& lighting) {
   std::string out = std::string("#version 450 core\n") +
                     "layout(location = 0) in vec3 position;\n"
                     "layout(location = 1) in vec3 normal;\n"
                     "uniform mat4 clip_from_local;\n" +
-                    kBlock + make_shading_glsl(lighting) + varyings("out", n_views) +
+                    kBlock + make_shading_glsl(lighting) + varyings("out", n_views, sides) +
                     "void main() {\n"
                     "  vec4 p = vec4(position, 1);\n"
                     "  gl_Position = clip_from_local * p;\n"
                     "  lit = srgb_encode(shade(base_color.xyz, normalize(normal)));\n";
+  if (sides == DrawnSides::both)
+    out +=
+        "  lit_back = srgb_encode(shade(base_color.xyz, -normalize(normal)));\n"
+        "  local = position;\n";
   for (int k = 0; k < n_views; ++k) {
     const auto row = [&](int r) { return "dot(rows[" + number(3 * k + r) + "], p)"; };
     out += "  stq" + number(k) + " = vec3(" + row(0) + ", " + row(1) + ", " + row(2) + ");\n";
@@ -92,15 +114,16 @@ std::string make_hybrid_vertex_glsl(int n_views, const Lighting& lighting) {
   return out + "}\n";
 }
 
-std::string make_hybrid_fragment_glsl(int n_views) {
-  const std::string out = "#version 450 core\n" + varyings("in", n_views) +
-                          "layout(location = 0) out vec4 color;\n" + kBlock;
+std::string make_hybrid_fragment_glsl(int n_views, DrawnSides sides) {
+  const std::string out = "#version 450 core\n" + varyings("in", n_views, sides) +
+                          "layout(location = 0) out vec4 color;\n" + kBlock +
+                          (sides == DrawnSides::both ? kBothSides : kFrontOnly);
   if (n_views == 0) return out + kLitMain;
   return out + kGuardedFetch + make_textured_main(n_views);
 }
 
 std::string make_edge_fragment_glsl() {
-  return "#version 450 core\n" + varyings("in", 0) +
+  return "#version 450 core\n" + varyings("in", 0, DrawnSides::front) +
          "layout(location = 0) out vec4 color;\n"
          "void main() { color = vec4(0.15, 0.15, 0.15, 1.0); }\n";
 }

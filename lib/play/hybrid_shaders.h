@@ -7,11 +7,15 @@
 
 namespace viewcell {
 
-/// n_views: 0 (lit only), 1, or 2 (blended). Vertex inputs: 0 position (cell-local), 1 normal.
-/// Uniform mat4 clip_from_local; uniform block 0 DrawBlock as in hybrid_renderer.cpp; texture unit
-/// 0: the texels.
-std::string make_hybrid_vertex_glsl(int n_views, const Lighting& lighting);
-std::string make_hybrid_fragment_glsl(int n_views);
+/// Which sides of a surface are drawn. both: also where either has triangles of its own.
+enum class DrawnSides { front, both };
+
+/// n_views: 0 (lit only), 1, or 2 (blended). Of both sides each is lit on its own, and a view shows
+/// a fragment only from the eye's side of its triangle. Vertex inputs: 0 position (cell-local), 1
+/// normal. Uniform mat4 clip_from_local; uniform block 0 DrawBlock as in hybrid_renderer.cpp;
+/// texture unit 0: the texels.
+std::string make_hybrid_vertex_glsl(int n_views, DrawnSides sides, const Lighting& lighting);
+std::string make_hybrid_fragment_glsl(int n_views, DrawnSides sides);
 /// Plain dark edges for wireframes.
 std::string make_edge_fragment_glsl();
 

@@ -32,7 +32,10 @@ ReadyCell make_ready_cell(const Scene& scene, const CellSet& cells, CellId cell,
   std::size_t v = 0, i = 0;
   for (const BundleObject& o : g.objects) {
     const SceneObject& object = scene.objects[static_cast<std::size_t>(o.object)];
-    const TriMesh& mesh = scene.mesh_of(object).mesh;
+    const SceneMesh& of_scene = scene.mesh_of(object);
+    const TriMesh& mesh = of_scene.mesh;
+    const std::vector<glm::vec3>& directions =
+        of_scene.weld.is_empty() ? mesh.normals : of_scene.weld.normals;
     const auto first_vertex = static_cast<std::uint32_t>(out.vertices.size());
     out.objects.push_back({ObjectId(o.object), Representation(o.kind),
                            static_cast<std::uint32_t>(out.indices.size()), 3 * o.n_triangles,
@@ -41,8 +44,9 @@ ReadyCell make_ready_cell(const Scene& scene, const CellSet& cells, CellId cell,
     for (std::uint32_t k = 0; k < o.n_vertices; ++k, ++v) {
       const std::uint32_t source = g.source_vertices[v];
       const glm::dvec3 n = object.rotation * glm::dvec3(mesh.normals[source]);
-      const glm::dvec3 p = object.world_from_model(glm::dvec3(mesh.positions[source])) +
-                           kOffsetUnit * g.offsets[v] * n;
+      const glm::dvec3 p =
+          object.world_from_model(glm::dvec3(mesh.positions[source])) +
+          kOffsetUnit * g.offsets[v] * (object.rotation * glm::dvec3(directions[source]));
       out.vertices.push_back(make_lit_vertex(glm::vec3(p - out.origin), n));
     }
     for (std::uint32_t k = 0; k < 3 * o.n_triangles; ++k, ++i)

@@ -117,6 +117,15 @@ bool CollapseMesh::keeps_topology(const Fan& of_u, std::uint32_t u, std::uint32_
   return legal && n_shared > 0;
 }
 
+bool CollapseMesh::is_lone_triangle(std::uint32_t u, std::uint32_t v) const {
+  if (stars_[u].n != 1 || stars_[v].n != 1) return false;
+  bool is_alone = false;
+  for_each_triangle(u, [&](std::uint32_t a, std::uint32_t b) {
+    is_alone = (a == v && stars_[b].n == 1) || (b == v && stars_[a].n == 1);
+  });
+  return is_alone;
+}
+
 bool CollapseMesh::is_on_boundary(std::uint32_t v) {
   gather(v, fan_v_);
   return fan_v_.has_odd_edge();
@@ -186,6 +195,14 @@ void CollapseMesh::collapse(std::uint32_t u, std::uint32_t v, CollapseTrace* tra
   corners_.insert(corners_.end(), rest.begin(), rest.end());
   stars_[v] = {merged, static_cast<std::uint32_t>(corners_.size()) - merged};
   stars_[u] = {};
+}
+
+std::vector<std::uint32_t> CollapseMesh::triangle_numbers() const {
+  std::vector<std::uint32_t> out;
+  out.reserve(n_triangles_);
+  for (std::uint32_t t = 0; t < alive_.size(); ++t)
+    if (alive_[t]) out.push_back(t);
+  return out;
 }
 
 std::vector<Triangle> CollapseMesh::triangles() const {

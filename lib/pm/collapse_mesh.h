@@ -76,10 +76,13 @@ class CollapseMesh {
   /// Collapses u into v: triangles with both die, the others of u get v instead. trace: set to
   /// what was done.
   void collapse(std::uint32_t u, std::uint32_t v, CollapseTrace* trace = nullptr);
+  /// Whether u and v are corners of a triangle that stands alone: their collapse would be its end.
+  bool is_lone_triangle(std::uint32_t u, std::uint32_t v) const;
   /// Whether some edge of v has exactly one triangle. Not thread-safe.
   bool is_on_boundary(std::uint32_t v);
-  /// The live triangles, in the order of the input.
+  /// The live triangles, in the order of the input, and their numbers there.
   std::vector<Triangle> triangles() const;
+  std::vector<std::uint32_t> triangle_numbers() const;
 
  private:
   // Where the corners of a vertex stand.

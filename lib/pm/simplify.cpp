@@ -18,16 +18,38 @@ SimplifyResult simplify(const TriMesh& mesh, const SimplifyOptions& options) {
   return {std::move(left.mesh), std::move(left.source_vertex), counts.last_cost, counts};
 }
 
-std::vector<Level> build_levels(const TriMesh& mesh, std::size_t min_triangles) {
+namespace {
+
+class LevelsMetric : public QemMetric {
+ public:
+  LevelsMetric(const TriMesh& mesh, const LevelsOptions& options)
+      : QemMetric(mesh.positions, mesh.triangles), options_(options) {}
+
+  float cost(std::uint32_t u, std::uint32_t v) const {
+    const bool stays = !options_.is_locked.empty() && options_.is_locked[u];
+    return stays ? std::numeric_limits<float>::infinity() : QemMetric::cost(u, v);
+  }
+  bool allows(const CollapseMesh& mesh, std::uint32_t u, std::uint32_t v) const {
+    return !options_.keep_parts || !mesh.is_lone_triangle(u, v);
+  }
+
+ private:
+  const LevelsOptions& options_;
+};
+
+}  // namespace
+
+std::vector<Level> build_levels(const TriMesh& mesh, const LevelsOptions& options) {
   CollapseMesh work(mesh.positions, mesh.triangles);
-  QemMetric metric(mesh.positions, mesh.triangles);
+  LevelsMetric metric(mesh, options);
   CollapseLoop loop(work, metric);
-  std::vector<Level> levels{{work.triangles(), 0}};
-  while (work.n_triangles() / 2 >= min_triangles) {
+  std::vector<Level> levels{{work.triangles(), work.triangle_numbers(), 0}};
+  while (work.n_triangles() / 2 >= options.min_triangles) {
     const std::size_t before = work.n_triangles();
     const CollapseCounts counts = loop.run({.target_triangles = before / 2});
     if (counts.n_collapses == 0) break;
-    levels.push_back({work.triangles(), std::max(levels.back().error, counts.last_cost)});
+    levels.push_back({work.triangles(), work.triangle_numbers(),
+                      std::max(levels.back().error, counts.last_cost)});
     if (work.n_triangles() > before * 9 / 10) break;  // all but stuck
   }
   return levels;

@@ -1,7 +1,9 @@
 // Simplification to a count or an error, and chains of levels, by half-edge collapses under QEM.
 #pragma once
 
+#include <cstdint>
 #include <limits>
+#include <span>
 #include <vector>
 
 #include "pm/collapse_loop.h"
@@ -27,10 +29,17 @@ SimplifyResult simplify(const TriMesh& mesh, const SimplifyOptions& options);
 /// One level of detail over the vertices of the mesh that it was made from.
 struct Level {
   std::vector<Triangle> triangles;
+  std::vector<std::uint32_t> source_triangle;  ///< their numbers in the input
   float error = 0;  ///< the largest QEM distance up to here, model units; 0: the input itself
 };
 
+struct LevelsOptions {
+  std::size_t min_triangles = 64;
+  std::span<const std::uint8_t> is_locked = {};  ///< by vertex, not 0: it stays; or empty
+  bool keep_parts = false;                       ///< a triangle that stands alone stays
+};
+
 /// The input, then about half the triangles of the level before each time, down to min_triangles.
-std::vector<Level> build_levels(const TriMesh& mesh, std::size_t min_triangles = 64);
+std::vector<Level> build_levels(const TriMesh& mesh, const LevelsOptions& options = {});
 
 }  // namespace viewcell

@@ -11,6 +11,7 @@
 #include "base/ids.h"
 #include "base/json.h"
 #include "mesh/mesh.h"
+#include "mesh/split_corners.h"
 #include "scene/lighting.h"
 
 namespace viewcell {
@@ -32,7 +33,9 @@ struct SceneMesh {
   std::string substitutes;      ///< what this mesh stands in for; empty: it is what its name says
   std::string hash;             ///< hash_file() of the file
   std::size_t n_triangles = 0;  ///< known even when the scene was read without meshes
-  TriMesh mesh;                 ///< with normals; empty when the scene was read without meshes
+  TriMesh mesh;     ///< as drawn, one normal a vertex; empty when the scene was read without meshes
+  VertexWeld weld;  ///< which of its vertices are one
+  bool has_twins = false;  ///< see SplitMesh: parts of it are seen from both sides
 };
 
 /// A placed instance: world = translation + rotation * (scale * model).

@@ -159,6 +159,7 @@ void apply_up_and_scale(SceneMesh& mesh) {
   for (glm::vec3& p : mesh.mesh.positions)
     p = turn_up_axis(mesh.up, p) * static_cast<float>(mesh.scale);
   for (glm::vec3& n : mesh.mesh.normals) n = turn_up_axis(mesh.up, n);
+  for (glm::vec3& n : mesh.mesh.corner_normals) n = turn_up_axis(mesh.up, n);
 }
 
 // Reads and checks one mesh file; place: "meshes[3]".
@@ -181,7 +182,10 @@ void load_mesh(const std::filesystem::path& scene_file, const std::string& place
   for (int axis = 0; axis < 3; ++axis)
     if (!(box.lo[axis] >= -kMaxCoordinate && box.hi[axis] <= kMaxCoordinate))
       throw InputError(file.string(), "", "coordinates leave +-1e7 after scaling");
-  if (mesh.mesh.normals.empty()) mesh.mesh.normals = make_vertex_normals(mesh.mesh);
+  SplitMesh split = split_corners(std::move(mesh.mesh));
+  mesh.mesh = std::move(split.mesh);
+  mesh.weld = std::move(split.weld);
+  mesh.has_twins = split.has_twins;
 }
 
 void load_meshes(const std::filesystem::path& file, const ReadSceneOptions& options, Scene& scene) {
@@ -189,7 +193,7 @@ void load_meshes(const std::filesystem::path& file, const ReadSceneOptions& opti
     SceneMesh& mesh = scene.meshes[i];
     if (options.with_meshes || mesh.hash.empty() || mesh.n_triangles == 0)
       load_mesh(file, "meshes[" + std::to_string(i) + "]", mesh);
-    if (!options.with_meshes) mesh.mesh = {};
+    if (!options.with_meshes) mesh.mesh = {}, mesh.weld = {};
   });
 }
 

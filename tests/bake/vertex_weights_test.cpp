@@ -26,8 +26,9 @@ ViewVertices weigh(const TriMesh& mesh, const std::vector<glm::dvec3>& eyes,
     views.push_back(
         *classify_view(scene, rays, ObjectId(0), eyes[k], kDensity, static_cast<int>(k)));
   ViewVertices v = vertices_of(mesh);
-  weigh_vertices(mesh.triangles, find_regional_back_faces(mesh.positions, mesh.triangles, eyes),
-                 views, options, v);
+  weigh_vertices(mesh.triangles,
+                 {find_regional_back_faces(mesh.positions, mesh.triangles, eyes), {}}, views,
+                 options, v);
   return v;
 }
 
@@ -107,9 +108,9 @@ TEST(VertexWeights, OptionsAreUsed) {
 TEST(VertexWeights, NoViewMeansInvisibleOrBackFacing) {
   const TriMesh mesh = make_sphere(6, 12, 7);
   ViewVertices v = vertices_of(mesh);
-  weigh_vertices(mesh.triangles, std::vector<bool>(mesh.triangles.size(), false), {}, {}, v);
+  weigh_vertices(mesh.triangles, {std::vector<bool>(mesh.triangles.size(), false), {}}, {}, {}, v);
   EXPECT_EQ(v.weights, std::vector<float>(mesh.positions.size(), 0.05f));
-  weigh_vertices(mesh.triangles, std::vector<bool>(mesh.triangles.size(), true), {}, {}, v);
+  weigh_vertices(mesh.triangles, {std::vector<bool>(mesh.triangles.size(), true), {}}, {}, {}, v);
   EXPECT_EQ(v.weights, std::vector<float>(mesh.positions.size(), 0.5f));
   EXPECT_EQ(v.views, std::vector<std::uint8_t>(mesh.positions.size(), 0));
 }

@@ -122,7 +122,7 @@ double measure_distance(const TriMesh& mesh, const std::vector<Triangle>& triang
 
 TEST(BuildLevels, HalvesAndErrorsNeverFall) {
   const TriMesh sphere = make_noisy_sphere(5, 0.02, 7);  // 8192 triangles
-  const std::vector<Level> levels = build_levels(sphere, 64);
+  const std::vector<Level> levels = build_levels(sphere, {.min_triangles = 64});
   ASSERT_EQ(levels.size(), 8u);  // 8192 / 2^7 = 64
   EXPECT_EQ(levels[0].triangles, sphere.triangles);
   EXPECT_EQ(levels[0].error, 0);
@@ -135,7 +135,7 @@ TEST(BuildLevels, HalvesAndErrorsNeverFall) {
 // A level is simplify()'s result for the same count.
 TEST(BuildLevels, LevelIsWhatSimplifyMakes) {
   const TriMesh sphere = make_noisy_sphere(4, 0.05, 8);
-  const std::vector<Level> levels = build_levels(sphere, 64);
+  const std::vector<Level> levels = build_levels(sphere, {.min_triangles = 64});
   for (const Level& level : levels) {
     const SimplifyResult result = simplify(sphere, {.target_triangles = level.triangles.size()});
     EXPECT_EQ(compact(sphere, level.triangles).mesh.triangles, result.mesh.triangles);
@@ -148,7 +148,7 @@ TEST(BuildLevels, ErrorStandsForTheDistance) {
   double worst = 0;
   for (const double noise : {0.0, 0.02, 0.1}) {
     const TriMesh sphere = make_noisy_sphere(4, noise, 9);
-    for (const Level& level : build_levels(sphere, 32)) {
+    for (const Level& level : build_levels(sphere, {.min_triangles = 32})) {
       if (level.error == 0) continue;
       const double measured = measure_distance(sphere, level.triangles);
       worst = std::max(worst, measured / level.error);
