@@ -7,6 +7,8 @@
 #include "base/file.h"
 #include "base/parallel.h"
 #include "formats/mesh_file.h"
+#include "mesh/split_corners.h"
+#include "mesh/used_vertices.h"
 #include "park/statues.h"
 #include "pm/simplify.h"
 
@@ -77,6 +79,7 @@ void turn_upright(TriMesh& mesh, const Offer& offer) {
   };
   for (glm::vec3& p : mesh.positions) p = turn(p);
   for (glm::vec3& n : mesh.normals) n = turn(n);
+  for (glm::vec3& n : mesh.corner_normals) n = turn(n);
 }
 
 void set_on_ground(TriMesh& mesh, const glm::dvec3& size, const fs::path& file) {
@@ -89,15 +92,26 @@ void set_on_ground(TriMesh& mesh, const glm::dvec3& size, const fs::path& file) 
   for (glm::vec3& p : mesh.positions) p = glm::vec3((glm::dvec3(p) - base) * scale);
 }
 
+// The surface hangs together where the file has split it; the result is split where normals jump.
+TriMesh simplify_drawn(const SplitMesh& drawn, std::size_t n_triangles) {
+  TriMesh surface;
+  surface.positions = drawn.mesh.positions;
+  surface.triangles = drawn.weld.weld(drawn.mesh.triangles);
+  const SimplifyResult coarse = simplify(surface, {.target_triangles = n_triangles});
+  std::vector<Triangle> triangles = coarse.mesh.triangles;
+  for (Triangle& t : triangles)
+    for (std::uint32_t& v : t) v = coarse.source_vertex[v];
+  return compact(drawn.mesh, choose_drawn_vertices(drawn.mesh, drawn.weld, triangles)).mesh;
+}
+
 TriMesh load_model(const StatueKind& kind, const Offer& offer) {
   TriMesh mesh = read_mesh(offer.file);
   mesh.texcoords.clear(), mesh.materials.clear(), mesh.material_names.clear();
   turn_upright(mesh, offer);
   set_on_ground(mesh, kind.size, offer.file);
-  if (mesh.triangles.size() > kind.n_triangles)
-    mesh = simplify(mesh, {.target_triangles = kind.n_triangles}).mesh;
-  if (mesh.normals.empty()) mesh.normals = make_vertex_normals(mesh);
-  return mesh;
+  SplitMesh drawn = split_corners(std::move(mesh));
+  return drawn.mesh.triangles.size() > kind.n_triangles ? simplify_drawn(drawn, kind.n_triangles)
+                                                        : std::move(drawn.mesh);
 }
 
 SceneMesh make_park_mesh(const StatueKind& kind, const std::optional<Offer>& offer, int n_threads) {

@@ -119,6 +119,17 @@ inline std::optional<TriMesh> read_bunny() {
   return read_mesh(file);
 }
 
+/// As read_scene holds it.
+inline SceneMesh make_scene_mesh(TriMesh mesh, const std::string& name = "mesh") {
+  SplitMesh split = split_corners(std::move(mesh));
+  SceneMesh out;
+  out.name = name, out.file = name + ".ply";
+  out.n_triangles = split.mesh.triangles.size();
+  out.mesh = std::move(split.mesh), out.weld = std::move(split.weld);
+  out.has_twins = split.has_twins;
+  return out;
+}
+
 /// The mesh as the one object of a scene, as it is; material 0, of no special colour.
 inline Scene make_scene_of(TriMesh mesh, bool double_sided = false) {
   Scene scene;
@@ -126,11 +137,7 @@ inline Scene make_scene_of(TriMesh mesh, bool double_sided = false) {
   scene.hash = "0123456789abcdef";
   scene.area = {{0, 0}, {200, 200}};
   scene.materials = {{"stone", {0.7f, 0.6f, 0.4f}, "", double_sided}};
-  SceneMesh holder;
-  holder.name = "mesh", holder.file = "mesh.ply";
-  holder.n_triangles = mesh.triangles.size();
-  holder.mesh = std::move(mesh);
-  scene.meshes.push_back(std::move(holder));
+  scene.meshes.push_back(make_scene_mesh(std::move(mesh)));
   SceneObject object;
   object.name = "object 0";
   scene.objects.push_back(object);
