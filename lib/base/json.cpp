@@ -1,6 +1,7 @@
 #include "base/json.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <limits>
 
@@ -61,23 +62,64 @@ std::string format_number(double x) {
   return Json(x).dump();
 }
 
+// "line 3, column 7" of the byte at that place; past the end, of the end.
+std::string place_of(const std::string& text, std::size_t at) {
+  const std::string_view before = std::string_view(text).substr(0, at);
+  const std::size_t line_start = before.rfind('\n') + 1;  // 0 where there is none
+  return "line " + std::to_string(1 + std::count(before.begin(), before.end(), '\n')) +
+         ", column " + std::to_string(before.size() - line_start + 1);
+}
+
+// Letters to insert, leave out, change or swap with their neighbour [Damerau64].
+std::size_t count_typos(const std::string& a, const std::string& b) {
+  std::vector<std::vector<std::size_t>> d(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
+  for (std::size_t i = 0; i <= a.size(); ++i)
+    for (std::size_t k = 0; k <= b.size(); ++k) {
+      if (i == 0 || k == 0) {
+        d[i][k] = i + k;
+        continue;
+      }
+      const bool differ = std::tolower(static_cast<unsigned char>(a[i - 1])) !=
+                          std::tolower(static_cast<unsigned char>(b[k - 1]));
+      d[i][k] = std::min({d[i - 1][k] + 1, d[i][k - 1] + 1, d[i - 1][k - 1] + differ});
+      if (i > 1 && k > 1 && a[i - 1] == b[k - 2] && a[i - 2] == b[k - 1])
+        d[i][k] = std::min(d[i][k], d[i - 2][k - 2] + 1);
+    }
+  return d[a.size()][b.size()];
+}
+
+// The known key that is nearest, or "" when none is near.
+std::string guess_key(const std::string& key, std::span<const char* const> known) {
+  constexpr std::size_t kLongestKey = 64;  // longer ones are no typing errors
+  if (key.size() > kLongestKey) return "";
+  std::string guess;
+  std::size_t fewest = 1 + std::max<std::size_t>(1, key.size() / 3);
+  for (const char* one : known)
+    if (const std::size_t n = count_typos(key, one); n < fewest) fewest = n, guess = one;
+  return guess;
+}
+
 }  // namespace
 
 Json parse_json(const std::string& text, const std::filesystem::path& file) {
   if (const std::size_t at = too_deep_at(text); at != std::string::npos)
-    throw InputError(file.string(), "byte " + std::to_string(at),
+    throw InputError(file.string(), place_of(text, at),
                      "JSON nested deeper than " + std::to_string(kMaxDepth));
   try {
     return Json::parse(text);
   } catch (const Json::parse_error& error) {
-    throw InputError(file.string(), "byte " + std::to_string(error.byte), "not valid JSON");
+    throw InputError(file.string(), place_of(text, std::max<std::size_t>(error.byte, 1) - 1),
+                     "not valid JSON");
   } catch (const Json::exception&) {
     throw InputError(file.string(), "", "not valid JSON (a number out of range?)");
   }
 }
 
-Json read_json(const std::filesystem::path& file, const std::string& format, int version) {
-  Json json = parse_json(read_file(file, 1u << 30), file);
+Json read_json(const std::filesystem::path& file, const std::string& format, int version,
+               const std::string& remedy, std::string* hash) {
+  const std::string text = read_file(file, 1u << 30);
+  if (hash != nullptr) *hash = hash_hex(text);
+  Json json = parse_json(text, file);
   const JsonCursor root(json, file);
   if (!json.is_object()) root.fail("is not a JSON object");
   if (!root.has("format") || root.at("format").value() != format)
@@ -85,7 +127,7 @@ Json read_json(const std::filesystem::path& file, const std::string& format, int
   const auto found = root.at("version").integer(0, 1 << 30);
   if (found != version)
     root.at("version").fail("version " + std::to_string(found) + ", this tool reads version " +
-                            std::to_string(version));
+                            std::to_string(version) + (remedy.empty() ? "" : ": " + remedy));
   return json;
 }
 
@@ -103,7 +145,12 @@ bool JsonCursor::has(const std::string& key) const {
 JsonCursor JsonCursor::at(const std::string& key) const {
   if (!value_->is_object()) fail("is not an object");
   const auto found = value_->find(key);
-  if (found == value_->end()) fail("has no \"" + key + "\"");
+  if (found == value_->end()) {
+    std::vector<const char*> keys;
+    for (const auto& item : value_->items()) keys.push_back(item.key().c_str());
+    const std::string guess = guess_key(key, keys);
+    fail("has no \"" + key + "\"" + (guess.empty() ? "" : "; is '" + guess + "' it?"));
+  }
   return {*found, *file_, place_.empty() ? key : place_ + "." + key};
 }
 
@@ -162,6 +209,17 @@ std::vector<double> JsonCursor::numbers(std::size_t n, double lo, double hi) con
   std::vector<double> out(n);
   for (std::size_t i = 0; i < n; ++i) out[i] = at(i).number(lo, hi);
   return out;
+}
+
+void remark_unknown_keys(const JsonCursor& object, const std::string& what,
+                         std::span<const char* const> known, Remarks* remarks) {
+  if (remarks == nullptr || !object.value().is_object()) return;
+  for (const auto& [key, value] : object.value().items()) {
+    if (std::find(known.begin(), known.end(), key) != known.end()) continue;
+    const std::string guess = guess_key(key, known);
+    add_remark(remarks, "key '" + key + "' of " + what + " is unknown and passed over" +
+                            (guess.empty() ? "" : "; is '" + guess + "' meant?"));
+  }
 }
 
 void JsonCursor::fail(const std::string& what) const {

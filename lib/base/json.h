@@ -4,7 +4,10 @@
 #include <cstdint>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <string>
+
+#include "base/remarks.h"
 
 namespace viewcell {
 
@@ -12,11 +15,13 @@ namespace viewcell {
 using Json = nlohmann::ordered_json;
 
 /// Parses text that came from `file`. Nesting deeper than 64 is refused before parsing. Throws
-/// InputError with the byte at fault.
+/// InputError with the line and the column (in bytes, from 1) at fault.
 Json parse_json(const std::string& text, const std::filesystem::path& file);
 
-/// Reads and parses a file of ours: "format" and "version" must be the ones given.
-Json read_json(const std::filesystem::path& file, const std::string& format, int version);
+/// Reads and parses a file of ours: "format" and "version" must be the ones given. remedy: what to
+/// do about a file of another version. hash: hash_hex of the bytes that were parsed, if wanted.
+Json read_json(const std::filesystem::path& file, const std::string& format, int version,
+               const std::string& remedy = "", std::string* hash = nullptr);
 
 /// Two-space indentation, arrays of numbers on one line, a newline at the end.
 std::string format_json(const Json& json);
@@ -55,5 +60,10 @@ class JsonCursor {
   const std::filesystem::path* file_;
   std::string place_;
 };
+
+/// Remarks on the keys of an object that are none of the known ones, with the known one that may
+/// have been meant. what: the object, with its article ("a mesh"). Not an object: nothing.
+void remark_unknown_keys(const JsonCursor& object, const std::string& what,
+                         std::span<const char* const> known, Remarks* remarks);
 
 }  // namespace viewcell

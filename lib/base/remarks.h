@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,12 @@ struct Remark {
 
 /// Remarks in the order in which they first came; the counts of equal ones are summed.
 using Remarks = std::vector<Remark>;
+
+/// Those on one of several files.
+struct FileRemarks {
+  std::filesystem::path file;
+  Remarks remarks;
+};
 
 /// O(kinds of remarks): collect counts first where there may be many. to null: nobody wants them.
 inline void add_remark(Remarks* to, const std::string& what, std::size_t count = 1) {

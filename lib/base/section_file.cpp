@@ -33,7 +33,7 @@ void SectionWriter::add_bytes(const std::string& tag, std::string_view bytes) {
   sections_.push_back({tag, std::string(bytes)});
 }
 
-void SectionWriter::write(const std::filesystem::path& file) const {
+std::uint64_t SectionWriter::write(const std::filesystem::path& file) const {
   std::string out(kMagic, sizeof kMagic);
   append(out, kind_);
   append(out, static_cast<std::uint32_t>(sections_.size()));
@@ -48,12 +48,14 @@ void SectionWriter::write(const std::filesystem::path& file) const {
     append(out, hash_bytes(section.bytes.data(), section.bytes.size()));
     offset += section.bytes.size();
   }
-  append(out, hash_bytes(out.data(), out.size()));
+  const std::uint64_t table_hash = hash_bytes(out.data(), out.size());
+  append(out, table_hash);
   for (const Section& section : sections_) {
     out.resize(aligned(out.size()), '\0');
     out += section.bytes;
   }
   write_file(file, out);
+  return table_hash;
 }
 
 SectionReader::SectionReader(const std::filesystem::path& file, std::uint32_t kind,
@@ -100,9 +102,8 @@ void SectionReader::read_table(std::uint32_t kind, const std::string& what) {
   if (n > kMostSections || size < kHeadBytes + n * kEntryBytes + 8) fail("", "is truncated");
   head.resize(kHeadBytes + n * kEntryBytes + 8);
   read_at(kHeadBytes, head.data() + kHeadBytes, head.size() - kHeadBytes);
-  std::uint64_t hash = 0;
-  std::memcpy(&hash, head.data() + head.size() - 8, 8);
-  if (hash != hash_bytes(head.data(), head.size() - 8))
+  std::memcpy(&table_hash_, head.data() + head.size() - 8, 8);
+  if (table_hash_ != hash_bytes(head.data(), head.size() - 8))
     fail("", "its table of sections is damaged");
   sections_.resize(n);
   std::uint64_t end = head.size();

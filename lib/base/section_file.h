@@ -30,7 +30,8 @@ class SectionWriter {
     add_bytes(tag, {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)});
   }
   void add_bytes(const std::string& tag, std::string_view bytes);
-  void write(const std::filesystem::path& file) const;
+  /// Returns the file's table_hash().
+  std::uint64_t write(const std::filesystem::path& file) const;
 
  private:
   struct Section {
@@ -73,6 +74,8 @@ class SectionReader {
   /// The JSON object in section INFO, whose "format" and "version" must be the ones given. Throws
   /// InputError.
   Json read_info(const std::string& format, int version) const;
+  /// XXH3 of the table, which holds the hashes of all sections: no other content has it.
+  std::uint64_t table_hash() const { return table_hash_; }
   std::uint64_t n_bytes(const std::string& tag) const { return find(tag).n_bytes; }
   [[noreturn]] void fail(const std::string& tag, const std::string& what) const;
 
@@ -91,6 +94,7 @@ class SectionReader {
   int fd_ = -1;        // of a regular file; otherwise
   std::string bytes_;  // the whole of it
   std::vector<Section> sections_;
+  std::uint64_t table_hash_ = 0;
 };
 
 }  // namespace viewcell

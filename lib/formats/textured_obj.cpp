@@ -32,15 +32,14 @@ void write_textured_obj(const fs::path& obj, const TriMesh& mesh,
   if (obj.has_parent_path() && !fs::is_directory(obj.parent_path()))
     throw MachineError(obj.string() + ": cannot create: there is no such folder");
   for (const fs::path& file : {picture, mtl, obj}) check_can_be_replaced(file);
-  PendingFile new_picture(picture), new_mtl(mtl), new_obj(obj);
-  write_picture(new_picture.temporary());
-  write_file(new_mtl.temporary(), format_material(name, picture));
-  write_obj(new_obj.temporary(), mesh,
+  PendingFolder pending(obj);
+  const auto pending_file = [&](const fs::path& file) { return pending.path() / file.filename(); };
+  write_picture(pending_file(picture));
+  write_file(pending_file(mtl), format_material(name, picture));
+  write_obj(pending_file(obj), mesh,
             {.comments = comments, .material_library = mtl.filename().string(), .material = name});
   fs::remove(obj);
-  new_picture.commit();
-  new_mtl.commit();
-  new_obj.commit();
+  for (const fs::path& file : {picture, mtl, obj}) pending.commit(file.filename(), file);
 }
 
 }  // namespace viewcell

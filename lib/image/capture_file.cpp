@@ -1,10 +1,15 @@
 #include "image/capture_file.h"
 
+#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
+#include <sys/mman.h>
+#include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cctype>
 #include <cmath>
+#include <cstdio>
 #include <cstring>
 #include <set>
 
@@ -119,6 +124,47 @@ std::vector<Pixel> interleave(const CapturePart& part) {
   return pixels;
 }
 
+// A file in memory. The library takes file names where there are several parts: it is given one
+// that leads to nothing on disk, and the bytes are then written as all files are.
+class FileInMemory {
+ public:
+  FileInMemory() : fd_(::memfd_create("capture", MFD_CLOEXEC)) {
+    if (!fd_.is_open()) throw MachineError("cannot make a file in memory: " + errno_text());
+  }
+  std::string name() const { return "/proc/self/fd/" + std::to_string(fd_.get()); }
+  std::string read() const {
+    std::string bytes(static_cast<std::size_t>(std::max<off_t>(0, ::lseek(fd_.get(), 0, SEEK_END))),
+                      '\0');
+    for (std::size_t done = 0; done < bytes.size();) {
+      const ssize_t n =
+          ::pread(fd_.get(), bytes.data() + done, bytes.size() - done, static_cast<off_t>(done));
+      if (n <= 0) throw MachineError("cannot read a file in memory: " + errno_text());
+      done += static_cast<std::size_t>(n);
+    }
+    return bytes;
+  }
+
+ private:
+  Descriptor fd_;
+};
+
+struct CloseStream {
+  void operator()(std::FILE* stream) const { std::fclose(stream); }
+};
+using Stream = std::unique_ptr<std::FILE, CloseStream>;
+
+// The writer's last flush tells no one when there was no room.
+bool is_whole(const FileInMemory& file) {
+  const Stream stream(std::fopen(file.name().c_str(), "rbe"));
+  if (!stream) return false;
+  try {
+    check_exr_layout(stream.get(), file.name());
+    return true;
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
 bool write_parts(OIIO::ImageOutput& output, const std::string& file,
                  const std::vector<const CapturePart*>& parts,
                  const std::vector<OIIO::ImageSpec>& specs) {
@@ -187,12 +233,11 @@ CaptureAttributes read_attributes(const OIIO::ImageSpec& spec) {
 }
 
 // What reading would allocate, against what the file's bytes can hold.
-void check_total(const std::vector<CapturePartHeader>& parts, const std::string& file) {
-  std::error_code error;
-  const std::uint64_t size = std::filesystem::file_size(file, error);
+void check_total(const std::vector<CapturePartHeader>& parts, std::uint64_t size,
+                 const std::string& file) {
   std::uint64_t n_bytes = 0;
   for (const CapturePartHeader& h : parts) n_bytes += n_pixels(h) * sizeof(Pixel);
-  if (error || n_bytes / kMostExrInflation > size)
+  if (n_bytes / kMostExrInflation > size)
     throw InputError(
         file, "header",
         std::to_string(n_bytes) + " bytes of pixels in a file of " + std::to_string(size));
@@ -212,32 +257,42 @@ void write_capture_file(const std::filesystem::path& file, const std::vector<Cap
   for (const CapturePart* part : written) specs.push_back(make_spec(part->header));
   for (const auto& [name, text] : attributes) specs[0].attribute(name, text);
 
-  PendingFile pending(file);
+  const FileInMemory memory;
   const auto output = OIIO::ImageOutput::create("openexr");
   if (!output) throw MachineError("OpenImageIO cannot write OpenEXR");
-  if (!write_parts(*output, pending.temporary().string(), written, specs))
+  if (!write_parts(*output, memory.name(), written, specs))
     throw MachineError(file.string() + ": " + first_line(output->geterror()));
-  try {  // the writer's last flush tells no one when the disk is full
-    check_exr_layout(pending.temporary());
-  } catch (const InputError&) {
-    throw MachineError(file.string() + ": cannot write all of it (disk full?)");
-  }
-  pending.commit();
+  if (!is_whole(memory))
+    throw MachineError(file.string() +
+                       ": cannot write: more than memory or the limit of file sizes (ulimit -f) "
+                       "can hold");
+  write_file(file, memory.read());
 }
 
+// Members die in the right order: the reader reads from the stream, by way of the proxy.
 struct CaptureFile::Input {
+  Stream stream;
+  std::unique_ptr<OIIO::Filesystem::IOFile> proxy;
   std::unique_ptr<OIIO::ImageInput> file;
 };
 
 CaptureFile::CaptureFile(const std::filesystem::path& path)
     : name_(path.string()), input_(std::make_unique<Input>()) {
   configure_openimageio();
-  check_exr_layout(path);
+  refuse_special(path);
+  if (std::filesystem::is_directory(path)) throw InputError(name_, "", "is a folder, not a file");
+  input_->stream.reset(std::fopen(path.c_str(), "rbe"));
+  if (!input_->stream) throw InputError(name_, "", "cannot open: " + errno_text());
+  const std::uint64_t size = check_exr_layout(input_->stream.get(), name_);
+  input_->proxy = std::make_unique<OIIO::Filesystem::IOFile>(input_->stream.get(),
+                                                             OIIO::Filesystem::IOProxy::Read);
   input_->file = OIIO::ImageInput::create("openexr", false);
-  if (!input_->file) throw MachineError("OpenImageIO cannot read OpenEXR");
+  if (!input_->file || !input_->file->set_ioproxy(input_->proxy.get()))
+    throw MachineError("OpenImageIO cannot read OpenEXR");
   OIIO::ImageInput& input = *input_->file;
   OIIO::ImageSpec spec;
-  if (!input.open(name_, spec)) throw InputError(name_, "", first_line(input.geterror()));
+  if (!input.open(name_, spec, OIIO::ImageSpec()))
+    throw InputError(name_, "", first_line(input.geterror()));
   const int n_parts = spec.get_int_attribute("oiio:subimages", 1);
   attributes_ = read_attributes(spec);
   for (int i = 0; i < n_parts; ++i) {
@@ -245,7 +300,7 @@ CaptureFile::CaptureFile(const std::filesystem::path& path)
       throw InputError(name_, "part " + std::to_string(i), first_line(input.geterror()));
     parts_.push_back(read_header(input.spec(), static_cast<std::size_t>(i), name_));
   }
-  check_total(parts_, name_);
+  check_total(parts_, size, name_);
   if (parts_.size() == 1 && parts_[0].name == kEmptyName) parts_.clear();
 }
 

@@ -4,7 +4,6 @@
 #include <array>
 #include <cstdint>
 #include <cstring>
-#include <fstream>
 #include <string>
 #include <vector>
 
@@ -26,11 +25,10 @@ constexpr std::array<int, 10> kLinesOfChunk = {1, 1, 1, 16, 32, 16, 32, 32, 32, 
 // A file read forward, in small pieces, none of them past its end.
 class Reader {
  public:
-  explicit Reader(const std::filesystem::path& file)
-      : name_(file.string()), stream_(file, std::ios::binary) {
-    std::error_code error;
-    size_ = std::filesystem::file_size(file, error);
-    if (error || !stream_) throw InputError(name_, "", "cannot open");
+  Reader(std::FILE* stream, const std::string& name) : name_(name), stream_(stream) {
+    if (::fseeko(stream_, 0, SEEK_END) != 0) throw InputError(name_, "", "is not a file");
+    size_ = static_cast<std::uint64_t>(::ftello(stream_));
+    seek(0);
   }
 
   std::uint64_t size() const { return size_; }
@@ -38,8 +36,7 @@ class Reader {
   std::uint64_t left() const { return size_ - position_; }
 
   void read(void* to, std::uint64_t n_bytes) {
-    if (n_bytes > left() ||
-        !stream_.read(static_cast<char*>(to), static_cast<std::streamsize>(n_bytes)))
+    if (n_bytes > left() || std::fread(to, 1, n_bytes, stream_) != n_bytes)
       fail("the file ends in its header or chunk table");
     position_ += n_bytes;
   }
@@ -60,11 +57,10 @@ class Reader {
   }
   void skip(std::uint64_t n_bytes) {
     if (n_bytes > left()) fail("the file ends in its header");
-    stream_.ignore(static_cast<std::streamsize>(n_bytes));
-    position_ += n_bytes;
+    seek(position_ + n_bytes);
   }
   void seek(std::uint64_t position) {
-    stream_.seekg(static_cast<std::streamoff>(position));
+    if (::fseeko(stream_, static_cast<off_t>(position), SEEK_SET) != 0) fail("cannot be read");
     position_ = position;
   }
 
@@ -73,7 +69,7 @@ class Reader {
 
  private:
   std::string name_, place_;
-  std::ifstream stream_;
+  std::FILE* stream_;
   std::uint64_t size_ = 0, position_ = 0;
 };
 
@@ -157,8 +153,8 @@ std::uint64_t read_last_offset(Reader& reader, const std::vector<PartHeader>& pa
 
 }  // namespace
 
-void check_exr_layout(const std::filesystem::path& file) {
-  Reader reader(file);
+std::uint64_t check_exr_layout(std::FILE* file, const std::string& name) {
+  Reader reader(file, name);
   reader.set_place("header");
   if (reader.number<std::uint32_t>() != kMagic) reader.fail("is not an EXR file");
   const auto version = reader.number<std::uint32_t>();
@@ -174,6 +170,7 @@ void check_exr_layout(const std::filesystem::path& file) {
   const auto n_bytes = reader.number<std::int32_t>();
   if (n_bytes < 0 || static_cast<std::uint64_t>(n_bytes) > reader.left())
     reader.fail("the file ends inside a chunk: it is cut");
+  return reader.size();
 }
 
 }  // namespace viewcell

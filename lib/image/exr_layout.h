@@ -1,7 +1,9 @@
 // The headers and chunk tables of an EXR file, checked before a decoder reads it.
 #pragma once
 
-#include <filesystem>
+#include <cstdint>
+#include <cstdio>
+#include <string>
 
 namespace viewcell {
 
@@ -10,7 +12,8 @@ namespace viewcell {
 /// - every data window is 1 to 16384 pixels a side, its corners within 2^20 of the origin;
 /// - the chunk tables are as long as the windows ask for, and every chunk starts inside the file;
 /// - the last chunk ends inside the file: so a file cut anywhere is found out here.
-/// Reads headers and tables only. Throws InputError naming the file and the part.
-void check_exr_layout(const std::filesystem::path& file);
+/// Reads headers and tables only, of the open file, which is called so in errors, and moves its
+/// position. Returns its size in bytes. Throws InputError naming the file and the part.
+std::uint64_t check_exr_layout(std::FILE* file, const std::string& name);
 
 }  // namespace viewcell

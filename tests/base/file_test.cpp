@@ -69,49 +69,49 @@ TEST(OutsideWriteFile, AKillLeavesNoTemporaryWhereFilesNeedNoName) {
   EXPECT_EQ(count_entries(folder.path()), 1u);
 }
 
-TEST(PendingFile, WithoutCommitTheTargetStaysAndTheTemporaryGoes) {
+TEST(PendingFile, WithoutCommitNothingIsLeft) {
   const TemporaryFolder folder;
-  const fs::path target = folder.add("a.exr", "old");
-  fs::path temporary;
+  const fs::path target = folder.add("a", "old");
   {
-    const PendingFile pending(target);
-    temporary = pending.temporary();
-    std::ofstream(temporary) << "half of i";
-    EXPECT_TRUE(fs::exists(temporary));
-    EXPECT_EQ(temporary.extension(), ".exr");
-    EXPECT_EQ(temporary.parent_path(), target.parent_path());
+    const PendingFile pending(target, "half of i");
+    EXPECT_EQ(read_file(target), "old");
   }
-  EXPECT_FALSE(fs::exists(temporary));
   EXPECT_EQ(read_file(target), "old");
+  EXPECT_EQ(count_entries(folder.path()), 1u);
 }
 
 TEST(PendingFile, CommitReplacesTheTarget) {
   const TemporaryFolder folder;
   const fs::path target = folder.add("a", "old");
   {
-    PendingFile pending(target);
-    std::ofstream(pending.temporary()) << "new";
-    EXPECT_EQ(read_file(target), "old");
-    pending.commit();
-    EXPECT_EQ(read_file(target), "new");
-    write_file(target, "newer");
+    PendingFile one(target, "new"), other(target, "newer");
+    bool was_there = false;
+    one.commit([&] { was_there = read_file(target) == "new"; });
+    EXPECT_TRUE(was_there);
+    other.commit();
   }
   EXPECT_EQ(read_file(target), "newer");  // the destructor removes nothing after commit
   EXPECT_EQ(count_entries(folder.path()), 1u);
 }
 
-TEST(PendingFile, TwoOfOneTargetDoNotMeet) {
+TEST(PendingFile, CommitOntoAFolderIsTheMachinesFault) {
   const TemporaryFolder folder;
-  const PendingFile a(folder.path() / "a"), b(folder.path() / "a");
-  EXPECT_NE(a.temporary(), b.temporary());
+  fs::create_directory(folder / "a");
+  PendingFile pending(folder / "a", "new");
+  EXPECT_THROW(pending.commit([] { ADD_FAILURE(); }), MachineError);
 }
 
-TEST(PendingFile, CommitOfNothingIsTheMachinesFault) {
+TEST(PendingFolder, WhatIsNotTakenOutGoes) {
   const TemporaryFolder folder;
-  const fs::path target = folder.add("a", "old");
-  PendingFile pending(target);
-  EXPECT_THROW(pending.commit(), MachineError);
-  EXPECT_EQ(read_file(target), "old");
+  folder.add("a.obj", "old");
+  {
+    PendingFolder pending(folder / "a.obj");
+    EXPECT_EQ(pending.path().parent_path(), folder.path());
+    for (const char* name : {"a.obj", "a.mtl"}) write_file(pending.path() / name, "new");
+    pending.commit("a.obj", folder / "a.obj");
+  }
+  EXPECT_EQ(read_file(folder / "a.obj"), "new");
+  EXPECT_EQ(count_entries(folder.path()), 1u);
 }
 
 TEST(ReadFile, RefusesWhatIsNoReadableFile) {
@@ -169,6 +169,22 @@ TEST(ResolveInside, RefusesWhatLeaves) {
   EXPECT_INPUT_ERROR(resolve_inside(scene, "", absolute), "is absolute");
   EXPECT_INPUT_ERROR(resolve_inside(scene, "", ""), "is empty");
   EXPECT_INPUT_ERROR(resolve_inside(scene, "", std::string("a\0b", 3)), "zero byte");
+}
+
+// Reading one might never end.
+TEST(ResolveInside, RefusesPipesAndDevices) {
+  const TemporaryFolder folder;
+  const fs::path scene = folder.add("scene.json", "");
+  ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
+  fs::create_symlink("pipe", folder / "link");
+  for (const char* name : {"pipe", "link"}) {
+    EXPECT_INPUT_ERROR(resolve_inside(scene, "meshes[2].file", name),
+                       "scene.json: meshes[2].file: path '" + std::string(name) + "' is a pipe");
+    EXPECT_INPUT_ERROR(refuse_special(folder / name), "is a pipe");
+  }
+  EXPECT_INPUT_ERROR(refuse_special("/dev/zero"), "/dev/zero: is a pipe or a device");
+  EXPECT_NO_THROW(refuse_special(scene));
+  EXPECT_NO_THROW(refuse_special(folder / "absent"));
 }
 
 TEST(ResolveInside, RefusesWhatTheSystemCannotFollow) {

@@ -18,22 +18,22 @@ Json parse(const std::string& text) {
   return parse_json(text, kFile);
 }
 
-// At the byte that opens the 65th level, however much follows.
+// At the column that opens the 65th level, however much follows.
 TEST(ParseJson, RefusesDeepNestingAtOnce) {
   const std::pair<std::string, std::size_t> cases[] = {
       {"[", 64}, {"{\"a\":", 5 * 64}, {"[[{\"b\":[", 8 * 16}, {"[\"]\",", 5 * 64}};
   for (const auto& [piece, byte] : cases) {
     std::string deep;
     for (int i = 0; i < 200000; ++i) deep += piece;
-    EXPECT_INPUT_ERROR(parse(deep),
-                       "file.json: byte " + std::to_string(byte) + ": JSON nested deeper than 64");
+    EXPECT_INPUT_ERROR(parse(deep), "file.json: line 1, column " + std::to_string(byte + 1) +
+                                        ": JSON nested deeper than 64");
   }
 }
 
 TEST(ParseJson, DepthLimitIsExact) {
   const auto nested = [](std::size_t n) { return std::string(n, '[') + std::string(n, ']'); };
   EXPECT_NO_THROW(parse(nested(64)));
-  EXPECT_INPUT_ERROR(parse(nested(65)), "file.json: byte 64: JSON nested deeper than 64");
+  EXPECT_INPUT_ERROR(parse(nested(65)), "file.json: line 1, column 65: JSON nested deeper than 64");
 }
 
 TEST(ParseJson, BracketsInStringsAreNoDepth) {
@@ -41,9 +41,12 @@ TEST(ParseJson, BracketsInStringsAreNoDepth) {
   EXPECT_EQ(parse(text).get<std::string>().size(), 2001u);
 }
 
-TEST(ParseJson, NamesTheByteAtFault) {
-  EXPECT_INPUT_ERROR(parse("{\"a\": 1,}"), "file.json: byte 9: not valid JSON");
-  EXPECT_INPUT_ERROR(parse(""), "byte 1: not valid JSON");
+TEST(ParseJson, NamesTheLineAndTheColumn) {
+  EXPECT_INPUT_ERROR(parse("{\"a\": 1,}"), "file.json: line 1, column 9: not valid JSON");
+  EXPECT_INPUT_ERROR(parse(""), "line 1, column 1: not valid JSON");
+  EXPECT_INPUT_ERROR(parse("{\n  \"a\": 1,\n  \"b\": ?\n}"), "line 3, column 8: not valid JSON");
+  EXPECT_INPUT_ERROR(parse("[1,\r\n\r\n 2"), "line 3, column 3: not valid JSON");
+  EXPECT_INPUT_ERROR(parse("\n\n" + std::string(70, '[')), "line 3, column 65: JSON nested");
   EXPECT_INPUT_ERROR(parse("[1, 2"), "not valid JSON");
   EXPECT_INPUT_ERROR(parse("{\"a\": 1} x"), "not valid JSON");
   EXPECT_INPUT_ERROR(parse("[1, \"\xff\"]"), "not valid JSON");
@@ -104,6 +107,32 @@ TEST(JsonCursor, NamesThePlace) {
   EXPECT_FALSE(root.at("b").has("x"));
 }
 
+TEST(JsonCursor, SaysWhichKeyMayBeTheOneThatIsMissing) {
+  const Json json = parse(R"({"trianlges": 1, "Scale": 2, "x": 3})");
+  const JsonCursor root(json, kFile);
+  EXPECT_INPUT_ERROR(root.at("triangles"), "has no \"triangles\"; is 'trianlges' it?");
+  EXPECT_INPUT_ERROR(root.at("scale"), "has no \"scale\"; is 'Scale' it?");
+  EXPECT_INPUT_ERROR(root.at("up"), "has no \"up\"");
+}
+
+TEST(UnknownKeys, AreSaidOnceWithWhatWasMeant) {
+  constexpr const char* kKnown[] = {"name", "substitutes", "up", "hash"};
+  Remarks remarks;
+  for (const char* text :
+       {R"({"name": 1, "substitues": 2})", R"({"substitues": 2, "Hash": 3, "author": 4})",
+        R"({"name": 1})", "[1]"}) {
+    const Json json = parse(text);
+    remark_unknown_keys(JsonCursor(json, kFile), "a mesh", kKnown, &remarks);
+    remark_unknown_keys(JsonCursor(json, kFile), "a mesh", kKnown, nullptr);
+  }
+  ASSERT_EQ(remarks.size(), 3u);
+  EXPECT_EQ(remarks[0].what,
+            "key 'substitues' of a mesh is unknown and passed over; is 'substitutes' meant?");
+  EXPECT_EQ(remarks[0].count, 2u);
+  EXPECT_EQ(remarks[1].what, "key 'Hash' of a mesh is unknown and passed over; is 'hash' meant?");
+  EXPECT_EQ(remarks[2].what, "key 'author' of a mesh is unknown and passed over");
+}
+
 TEST(ReadJson, HoldsFormatAndVersion) {
   const TemporaryFolder folder;
   const auto read = [&](const std::string& text) {
@@ -116,6 +145,12 @@ TEST(ReadJson, HoldsFormatAndVersion) {
   EXPECT_INPUT_ERROR(read(R"({"format": 7, "version": 2})"), "\"format\" is not");
   EXPECT_INPUT_ERROR(read(R"({"format": "viewcell-x", "version": 3})"),
                      "version: version 3, this tool reads version 2");
+  EXPECT_INPUT_ERROR(read_json(folder.path() / "a.json", "viewcell-x", 2, "bake again"),
+                     "this tool reads version 2: bake again");
+  std::string hash;
+  read_json(folder.add("c.json", R"({"format": "viewcell-x", "version": 2})"), "viewcell-x", 2, "",
+            &hash);
+  EXPECT_EQ(hash, hash_file(folder.path() / "c.json"));
   EXPECT_INPUT_ERROR(read(R"({"format": "viewcell-x", "version": "2"})"), "is not a number");
   EXPECT_INPUT_ERROR(read(R"({"format": "viewcell-x"})"), "has no \"version\"");
   EXPECT_INPUT_ERROR(read("[]"), "is not a JSON object");

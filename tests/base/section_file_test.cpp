@@ -5,6 +5,7 @@
 
 #include <fstream>
 #include <optional>
+#include <set>
 
 #include "base/file.h"
 #include "base/random.h"
@@ -61,6 +62,30 @@ TEST(SectionFile, ReadsBackWhatWasWritten) {
   const SectionReader reader(folder.path() / "whole", kKind);
   EXPECT_EQ(reader.n_bytes("ids"), 28u);
   EXPECT_EQ(reader.n_bytes("none"), 0u);
+}
+
+// The table's hash tells any content from any other, and is what the writer returns.
+TEST(SectionFile, TheTablesHashIsOfAllContent) {
+  const TemporaryFolder folder;
+  std::set<std::uint64_t> hashes;
+  const auto write = [&](const Contents& c, std::uint32_t kind) {
+    SectionWriter writer(kind);
+    writer.add("ids", c.ids);
+    writer.add("sums", c.sums);
+    const std::uint64_t hash = writer.write(folder.path() / "a");
+    EXPECT_EQ(SectionReader(folder.path() / "a", kind).table_hash(), hash);
+    hashes.insert(hash);
+  };
+  Contents c = make_contents();
+  write(c, kKind);
+  write(c, kKind);
+  EXPECT_EQ(hashes.size(), 1u);
+  write(c, kKind + 1);
+  ++c.ids[3];
+  write(c, kKind);
+  c.ids.pop_back();
+  write(c, kKind);
+  EXPECT_EQ(hashes.size(), 4u);
 }
 
 TEST(SectionFile, SectionsStartAtMultiplesOf16) {

@@ -272,7 +272,7 @@ TEST(CaptureFileTest, MissingOrWrongChannelsAreRefused) {
 TEST(CaptureFileTest, OtherFilesAreRefusedByName) {
   const TemporaryFolder folder;
   EXPECT_NE(error_of_capture(folder / "none.exr").find("none.exr"), std::string::npos);
-  EXPECT_NE(error_of_capture(folder.path()).find("cannot open"), std::string::npos);
+  EXPECT_NE(error_of_capture(folder.path()).find("is a folder"), std::string::npos);
   write_file(folder / "text.exr", "v 0 0 0\n");
   EXPECT_NE(error_of_capture(folder / "text.exr").find("not an EXR"), std::string::npos);
 }

@@ -4,6 +4,7 @@
 
 #include "bake/derive.h"
 #include "base/file.h"
+#include "base/folder_lock.h"
 #include "common/provenance.h"
 #include "common/scene_inputs.h"
 #include "common/tool.h"
@@ -76,14 +77,14 @@ int run(Tool& tool, Representation kind, Options& options) {
   const CellSet cells = read_cells(options.cells_file);
   check_cells_of_scene(cells, scene, options.cells_file);
   const auto list = select_cells(cells, options.cell_list, options.slice);
-  const CaptureSettings settings =
-      read_settings(options.captures, scene, hash_file(options.cells_file));
+  const CaptureSettings settings = read_settings(options.captures, scene, cells.file_hash);
   options.bake.resolution_px = settings.density.resolution_px;
   const std::string made_by =
       make_provenance(tool, format_options(options.bake), {{"captures", settings.key()}}).dump();
   const std::string key = hash_hex(settings.key() + format_options(options.bake).dump());
   const std::filesystem::path folder = tool.common().output;
   make_folder(folder);
+  const FolderLock folder_lock(folder, tool.name(), key);
 
   const BakeScene bake = build_bake_scene(scene, cells, n_threads);
   std::mutex mutex;  // guards the sums

@@ -28,6 +28,7 @@ void register_scene_files(Tool& tool, const Scene& scene, const std::filesystem:
   for (const SceneMesh& mesh : scene.meshes)
     files.push_back({"a mesh of the scene", (scene_file.parent_path() / mesh.file).string()});
   tool.reads(files);
+  for (const auto& [file, remarks] : scene.remarks) tool.remark(file, remarks);
 }
 
 }  // namespace viewcell

@@ -18,7 +18,8 @@ inline const std::vector<std::string> kBundleFiles = {"**"};
 void declare_scene_inputs(Command& command, Target scene_file, Target cells_file,
                           std::string* cell_list);
 
-/// Registers the files that scene.json names: they are inputs, too.
+/// Registers the files that scene.json names: they are inputs, too. Says what was passed over in
+/// them.
 void register_scene_files(Tool& tool, const Scene& scene, const std::filesystem::path& scene_file);
 
 }  // namespace viewcell

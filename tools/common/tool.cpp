@@ -1,5 +1,6 @@
 #include "common/tool.h"
 
+#include <fcntl.h>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
@@ -14,6 +15,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/version.h"
+#include "common/signals.h"
 
 namespace viewcell {
 namespace {
@@ -75,7 +77,12 @@ class Parser {
                      [&](const NamedFile& a, const NamedFile& b) { return rank(a) < rank(b); });
   }
 
-  int exit(const CLI::Success& success) const { return app_.exit(success); }
+  /// What --help or --version shows.
+  std::string answer(const CLI::Success& success) const {
+    std::ostringstream out;
+    app_.exit(success, out, out);
+    return out.str();
+  }
 
  private:
   static CLI::Option* add(CLI::App& app, const Option& option) {
@@ -128,6 +135,14 @@ std::string one_line(const std::string& text) {
   std::string out;
   for (const char c : text) out += (c == '\n' || c == '\r' || c == '\t') ? ' ' : c;
   return out;
+}
+
+// A closed standard stream's number would be given to the next file that is opened, and what is
+// meant for the stream written there. These fail instead.
+void keep_standard_streams() {
+  for (const int fd : {0, 1, 2})
+    if (::fcntl(fd, F_GETFD) < 0 && errno == EBADF)
+      static_cast<void>(::open("/dev/null", fd == 0 ? O_WRONLY : O_RDONLY));
 }
 
 Check make_check(const CLI::Validator& validator) {
@@ -276,13 +291,16 @@ int Tool::main(int argc, char** argv, const std::function<void()>& prepare,
     std::cerr << name() << ": " << one_line(text) << "\n";
     return code;
   };
+  keep_standard_streams();
   std::signal(SIGXFSZ, SIG_IGN);  // ulimit -f: a write that fails, not an end without a word
   try {
+    const SignalGuard guard;
     Parser parser(*this, example_);
     try {
       parser.parse(argc, argv);
     } catch (const CLI::Success& success) {  // --help, --version
-      return parser.exit(success);
+      write_file("-", parser.answer(success));
+      return 0;
     }
     parser.find_files(inputs_, outputs_);
     prepare();
@@ -316,6 +334,10 @@ Progress Tool::progress(const std::string& what) const {
 
 void Tool::say(const std::string& line) const {
   if (!common_.quiet) std::cerr << name() << ": " << line << "\n";
+}
+
+void Tool::warn(const std::string& line) const {
+  std::cerr << name() << ": " << one_line(line) << "\n";
 }
 
 void Tool::remark(const std::filesystem::path& file, const Remarks& remarks) const {

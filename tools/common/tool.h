@@ -54,6 +54,8 @@ class Tool : public Command {
   Progress progress(const std::string& what) const;
   /// A line for people on stderr, unless -q.
   void say(const std::string& line) const;
+  /// The same of what is not as it should be: with -q, too.
+  void warn(const std::string& line) const;
   /// What was passed over in a file: a line each on stderr, unless -q, and "remarks" of the report.
   void remark(const std::filesystem::path& file, const Remarks& remarks) const;
   /// Writes the report where --json asks for it, if it does.

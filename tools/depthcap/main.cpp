@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "base/folder_lock.h"
 #include "capture/capture_centre.h"
 #include "capture/captures.h"
 #include "capture/raster_capture.h"
@@ -44,9 +45,10 @@ int run(Tool& tool, const DepthcapArguments& a) {
   const CellSet cells = read_cells(a.cells_file);
   check_cells_of_scene(cells, scene, a.cells_file);
   const auto centres = centres_of(cells, select_cells(cells, a.cell_list, a.slice));
-  const CaptureSettings settings{scene.hash, hash_file(a.cells_file), a.density, a.engine};
+  const CaptureSettings settings{scene.hash, cells.file_hash, a.density, a.engine};
   const std::filesystem::path folder = tool.common().output;
   make_folder(folder);
+  const FolderLock lock(folder, tool.name(), settings.key());
 
   const auto points = object_points_world(scene);
   Counts counts;

@@ -1,5 +1,9 @@
 // parkgen: generates a statuary park and a walk through it.
+#include <sstream>
+
 #include "base/error.h"
+#include "base/file.h"
+#include "base/folder_lock.h"
 #include "common/provenance.h"
 #include "common/tool.h"
 #include "park/models.h"
@@ -35,10 +39,14 @@ void declare(Tool& tool, Options& options) {
 
 // Kind, triangles, width, depth, height, counts in the 2M, 4M and 8M parks, tab-separated.
 void print_kinds() {
-  for (const StatueKind& kind : statue_kinds())
-    std::printf("%s\t%zu\t%g\t%g\t%g\t%d\t%d\t%d\t%s\n", kind.name, kind.n_triangles, kind.size.x,
-                kind.size.y, kind.size.z, kind.counts[0], kind.counts[1], kind.counts[2],
-                kind.figure);
+  std::ostringstream out;
+  for (const StatueKind& kind : statue_kinds()) {
+    out << kind.name << '\t' << kind.n_triangles;
+    for (int axis = 0; axis < 3; ++axis) out << '\t' << kind.size[axis];
+    for (const int count : kind.counts) out << '\t' << count;
+    out << '\t' << kind.figure << '\n';
+  }
+  write_file("-", out.str());
 }
 
 Json make_report(const Park& park, const ParkPreset& preset, const Options& options) {
@@ -73,12 +81,15 @@ int run(const Tool& tool, const Options& options) {
   const int n_threads = tool.common().n_threads;
   ParkMeshes meshes = make_park_meshes(options.models_folder, n_threads);
   for (const std::string& note : meshes.notes) tool.say(note);
+  for (const auto& [file, remarks] : meshes.remarks) tool.remark(file, remarks);
   Json inputs = Json::object();  // the models' hashes
   for (std::size_t k = 0; k < kStatueKinds; ++k)
     if (!meshes.source_hashes[k].empty()) inputs[statue_kinds()[k].name] = meshes.source_hashes[k];
   Park park = make_park(std::move(meshes.meshes), preset, options.seed, n_threads);
   const Json made_by =
       make_provenance(tool, {{"preset", preset.name}, {"seed", options.seed}}, inputs);
+  make_folder(tool.common().output);
+  const FolderLock lock(tool.common().output, tool.name(), hash_hex(made_by.dump()));
   write_park(park, tool.common().output, made_by, tool.progress("mesh"));
   tool.report(make_report(park, preset, options));
   tool.say(std::to_string(park.scene.objects.size()) + " statues, " +
