@@ -60,7 +60,8 @@ void check_kind_and_cell(const std::filesystem::path& file, const WeightedMeshes
   if (found.kind != kind)
     throw InputError(file.string(), "header",
                      std::string("is of the other kind: its comment 'kind' says ") +
-                         kind_name(found.kind) + ", not " + kind_name(kind));
+                         kind_name(found.kind) + ", not " + kind_name(kind) + "; run " +
+                         kind_name(kind));
   if (found.cell != cell)
     throw InputError(file.string(), "header",
                      "is of another cell: its comment 'cell' says " +
@@ -128,8 +129,9 @@ class MeshSplitter {
       columns_.vertex_views.push_back(static_cast<std::uint8_t>(v));
     columns_.source_vertex = document.uints("vertex", "source_vertex");
     columns_.triangles = document.triangles("face", "vertex_indices", columns_.positions.size());
-    const auto most = static_cast<std::uint32_t>(scene.objects.size());
-    for (const auto o : document.uints("face", "object", most == 0 ? 0 : most - 1))
+    const auto n = static_cast<std::uint32_t>(scene.objects.size());
+    if (n == 0 && !columns_.triangles.empty()) fail(0, "is of an object, and the scene has none");
+    for (const auto o : document.uints("face", "object", n == 0 ? 0 : n - 1))
       columns_.objects.push_back(static_cast<std::int32_t>(o));
     for (const auto v : document.uints("face", "views", 0x7f))
       columns_.triangle_views.push_back(static_cast<std::uint8_t>(v));
@@ -230,8 +232,11 @@ void write_weighted_meshes(const std::filesystem::path& file, const WeightedMesh
 }
 
 WeightedMeshes read_weighted_meshes(const std::filesystem::path& file, const Scene& scene) {
-  const PlyDocument document = parse_ply(read_file(file), file.string());
+  refuse_special(file);
+  const std::string bytes = read_file(file);
+  const PlyDocument document = parse_ply(bytes, file.string());
   WeightedMeshes out = parse_header(document);
+  out.file_hash = hash_hex(bytes);
   out.meshes = MeshSplitter(document, scene).split(scene);
   add_empty_meshes(document, scene, out.meshes);
   return out;
@@ -239,6 +244,10 @@ WeightedMeshes read_weighted_meshes(const std::filesystem::path& file, const Sce
 
 WeightedMeshes read_weighted_meshes(const std::filesystem::path& file, const Scene& scene,
                                     Representation kind, CellId cell) {
+  std::error_code ignored;  // what cannot be looked at cannot be opened
+  if (!std::filesystem::exists(file, ignored))
+    throw InputError(file.string(), "",
+                     std::string("is not there; run ") + kind_name(kind) + " for this cell");
   WeightedMeshes out = read_weighted_meshes(file, scene);
   check_kind_and_cell(file, out, kind, cell);
   return out;
@@ -248,6 +257,7 @@ bool is_derived(const std::filesystem::path& file, Representation kind, CellId c
                 const std::string& made_from) {
   std::error_code ignored;
   if (!std::filesystem::exists(file, ignored)) return false;
+  refuse_special(file);
   WeightedMeshes found;
   try {
     found = parse_header(parse_ply(read_file(file), file.string()));

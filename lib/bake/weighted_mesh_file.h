@@ -17,6 +17,7 @@ struct WeightedMeshes {
   /// Hash of those and of the options: both kinds of one bake share it.
   std::string made_from;
   std::vector<CellMesh> meshes;  ///< ascending by object
+  std::string file_hash = {};    ///< hash_hex() of the bytes that were parsed
 };
 
 /// "cell-00012.ply"

@@ -41,6 +41,8 @@ CaptureView parse_view(const CapturePartHeader& header, const fs::path& file) {
   view.right = vec3_at(root.at("right"));
   view.up = vec3_at(root.at("up"));
   view.forward = vec3_at(root.at("forward"));
+  if (!is_view_frame(view.right, view.up, view.forward))
+    root.fail("its axes are no frame of unit vectors at right angles");
   view.focal_px = root.at("focal_px").number(1e-3, 1e9);
   view.source_px = header.source_width_px;
   return view;
@@ -79,6 +81,13 @@ CapturePart part_of(const CaptureTile& tile) {
   return part;
 }
 
+CaptureFile open_captures(const fs::path& file) {
+  std::error_code ignored;  // what cannot be looked at cannot be opened
+  if (!fs::exists(file, ignored))
+    throw InputError(file.string(), "", "is not there; run depthcap for the cells around it");
+  return CaptureFile(file);
+}
+
 }  // namespace
 
 std::string CaptureSettings::key() const {
@@ -106,6 +115,9 @@ Json format_settings(const CaptureSettings& settings, const Json& provenance) {
 CaptureSettings read_settings(const fs::path& folder, const Scene& scene,
                               const std::string& cells_hash) {
   const fs::path file = folder / kCapturesManifest;
+  if (!fs::exists(file))
+    throw InputError(file.string(), "", "is not there; depthcap writes it last: run depthcap");
+  refuse_special(file);
   const Json json = read_json(file, kFormat, 1);
   const JsonCursor root(json, file);
   CaptureSettings settings;
@@ -162,7 +174,7 @@ bool is_captured(const fs::path& file, const CaptureSettings& settings) {
 }
 
 CentreCaptures::CentreCaptures(const fs::path& file, const CaptureSettings& settings)
-    : path_(file), file_(file) {
+    : path_(file), file_(open_captures(file)) {
   const auto key = file_.attributes().find(kKeyAttribute);
   if (key == file_.attributes().end() || key->second != settings.key())
     throw InputError(file.string(), "", "belongs to another bake; run depthcap again");

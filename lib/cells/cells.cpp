@@ -98,9 +98,9 @@ glm::dvec3 eye_of(const CellSet& cells, CellId cell) {
 }
 
 CellSet read_cells(const std::filesystem::path& file) {
-  const Json json = read_json(file, kFormat, 1);
-  const JsonCursor root(json, file);
   CellSet cells;
+  const Json json = read_json(file, kFormat, 1, "", &cells.file_hash);
+  const JsonCursor root(json, file);
   cells.scene_hash = root.at("scene_hash").string();
   cells.n_objects = static_cast<std::size_t>(root.at("objects").integer(0, 1 << 24));
   const auto origin = root.at("origin").numbers(2, -1e9, 1e9);

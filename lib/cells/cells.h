@@ -21,6 +21,7 @@ struct CellSet {
   EyeHeight eye_height;
   double near = kNear;     ///< distance of the player's near plane
   std::string scene_hash;  ///< of the scene that it was made for
+  std::string file_hash;   ///< hash_hex() of the bytes of cells.json; empty: not read from a file
   std::size_t n_objects = 0;
   std::vector<std::vector<ObjectId>> inside;  ///< per cell, ascending
 };

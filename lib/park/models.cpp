@@ -43,8 +43,13 @@ Offer read_offer(const JsonCursor& cursor) {
   return offer;
 }
 
-Offers read_offers(const fs::path& list) {
+Offers read_offers(const fs::path& list, Remarks& remarks) {
+  constexpr const char* kList[] = {"format", "version", "made_by", "models"};
+  // The last three are of scripts/fetch-models, for people.
+  constexpr const char* kModel[] = {"name",        "file",      "up",     "rotate_z_deg",
+                                    "substitutes", "triangles", "source", "sha256"};
   const Json json = read_json(list, "viewcell-models", 1);
+  remark_unknown_keys(JsonCursor(json, list), "the list", kList, &remarks);
   const JsonCursor models = JsonCursor(json, list).at("models");
   Offers offers(kStatueKinds);
   const std::size_t n = models.size();
@@ -54,6 +59,7 @@ Offers read_offers(const fs::path& list) {
     if (!kind) models.at(i).at("name").fail("'" + name + "' is not a kind of statue");
     if (offers[*kind]) models.at(i).at("name").fail("'" + name + "' is there twice");
     offers[*kind] = read_offer(models.at(i));
+    remark_unknown_keys(models.at(i), "a model", kModel, &remarks);
   }
   return offers;
 }
@@ -104,8 +110,8 @@ TriMesh simplify_drawn(const SplitMesh& drawn, std::size_t n_triangles) {
   return compact(drawn.mesh, choose_drawn_vertices(drawn.mesh, drawn.weld, triangles)).mesh;
 }
 
-TriMesh load_model(const StatueKind& kind, const Offer& offer) {
-  TriMesh mesh = read_mesh(offer.file);
+TriMesh load_model(const StatueKind& kind, const Offer& offer, MeshSource& source) {
+  TriMesh mesh = read_mesh(offer.file, &source);
   mesh.texcoords.clear(), mesh.materials.clear(), mesh.material_names.clear();
   turn_upright(mesh, offer);
   set_on_ground(mesh, kind.size, offer.file);
@@ -114,12 +120,14 @@ TriMesh load_model(const StatueKind& kind, const Offer& offer) {
                                                         : std::move(drawn.mesh);
 }
 
-SceneMesh make_park_mesh(const StatueKind& kind, const std::optional<Offer>& offer, int n_threads) {
+// source: of the model's file, where there is one.
+SceneMesh make_park_mesh(const StatueKind& kind, const std::optional<Offer>& offer, int n_threads,
+                         MeshSource& source) {
   SceneMesh mesh;
   mesh.name = kind.name;
   mesh.file = std::string("meshes/") + kind.name + ".ply";
   if (offer) {
-    mesh.mesh = load_model(kind, *offer);
+    mesh.mesh = load_model(kind, *offer, source);
     mesh.substitutes = offer->substitutes;
   } else {
     mesh.mesh = make_statue(kind, n_threads);
@@ -132,20 +140,28 @@ SceneMesh make_park_mesh(const StatueKind& kind, const std::optional<Offer>& off
 }  // namespace
 
 ParkMeshes make_park_meshes(const fs::path& folder, int n_threads) {
+  ParkMeshes out;
   Offers offers(kStatueKinds);
   if (!folder.empty()) {
     if (!fs::is_directory(folder))
       throw InputError(folder.string(), "", "is not a folder of models");
     const fs::path list = folder / "models.json";
-    offers = fs::exists(list) ? read_offers(list) : find_offers(folder);
+    refuse_special(list);
+    Remarks remarks;
+    offers = fs::exists(list) ? read_offers(list, remarks) : find_offers(folder);
+    if (!remarks.empty()) out.remarks.push_back({list, std::move(remarks)});
   }
-  ParkMeshes out;
   out.meshes.resize(kStatueKinds);
   out.source_hashes.resize(kStatueKinds);
+  std::vector<MeshSource> sources(kStatueKinds);
   parallel_for(kStatueKinds, n_threads, [&](std::size_t k) {
-    if (offers[k]) out.source_hashes[k] = hash_file(offers[k]->file);
-    out.meshes[k] = make_park_mesh(statue_kinds()[k], offers[k], n_threads);
+    out.meshes[k] = make_park_mesh(statue_kinds()[k], offers[k], n_threads, sources[k]);
   });
+  for (std::size_t k = 0; k < kStatueKinds; ++k) {
+    out.source_hashes[k] = sources[k].hash;
+    if (!sources[k].remarks.empty())
+      out.remarks.push_back({offers[k]->file, std::move(sources[k].remarks)});
+  }
   for (std::size_t k = 0; k < kStatueKinds && !folder.empty(); ++k) {
     const std::string name = statue_kinds()[k].name;
     if (!offers[k])

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "base/remarks.h"
 #include "scene/scene.h"
 
 namespace viewcell {
@@ -12,7 +13,8 @@ namespace viewcell {
 struct ParkMeshes {
   std::vector<SceneMesh> meshes;  ///< one a kind, in the order of statue_kinds(); no hash yet
   std::vector<std::string> source_hashes;  ///< of the model files; empty for a procedural mesh
-  std::vector<std::string> notes;  ///< lines for people: what was missing, scaled, simplified
+  std::vector<std::string> notes;    ///< lines for people: what was missing, scaled, simplified
+  std::vector<FileRemarks> remarks;  ///< on models.json and the model files, where there are any
 };
 
 /// The meshes of all kinds. folder empty: all procedural. Otherwise the folder's models.json says

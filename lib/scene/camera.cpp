@@ -16,7 +16,9 @@ glm::dvec3 vec3_at(const JsonCursor& cursor) {
   return {x[0], x[1], x[2]};
 }
 
-PathSample read_sample(const JsonCursor& cursor) {
+PathSample read_sample(const JsonCursor& cursor, Remarks* remarks) {
+  constexpr const char* kKeys[] = {"time_s", "eye", "forward"};
+  remark_unknown_keys(cursor, "a sample", kKeys, remarks);
   PathSample sample;
   sample.time_s = cursor.at("time_s").number(0, 1e9);
   sample.eye = vec3_at(cursor.at("eye"));
@@ -56,15 +58,31 @@ glm::dmat4 clip_from_view(const Camera& camera) {
   return clip;
 }
 
-CameraPath read_path(const std::filesystem::path& file) {
+bool is_view_frame(const glm::dvec3& right, const glm::dvec3& up, const glm::dvec3& forward) {
+  constexpr double kRounding = 1e-6;
+  const auto is_unit = [](const glm::dvec3& v) {
+    return std::abs(glm::length(v) - 1) <= kRounding;
+  };
+  return is_unit(right) && is_unit(up) && is_unit(forward) &&
+         std::abs(glm::dot(right, up)) <= kRounding &&
+         glm::length(glm::cross(right, up) + forward) <= kRounding;
+}
+
+CameraPath read_path(const std::filesystem::path& file, Remarks* remarks) {
+  constexpr const char* kKeys[] = {"format", "version", "made_by", "fov_y_deg", "samples"};
   const Json json = read_json(file, kPathFormat, 1);
   const JsonCursor root(json, file);
+  remark_unknown_keys(root, "the path", kKeys, remarks);
+  if (root.has("fov_y_deg") && root.at("fov_y_deg").number() != kFovYDeg)
+    root.at("fov_y_deg")
+        .fail("is not " + std::to_string(static_cast<int>(kFovYDeg)) +
+              ", the angle of every frame");
   const JsonCursor samples = root.at("samples");
   const std::size_t n = samples.size();
   if (n == 0) samples.fail("is empty");
   CameraPath path;
   for (std::size_t i = 0; i < n; ++i) {
-    path.samples.push_back(read_sample(samples.at(i)));
+    path.samples.push_back(read_sample(samples.at(i), remarks));
     if (i > 0 && !(path.samples[i].time_s > path.samples[i - 1].time_s))
       samples.at(i).at("time_s").fail("is not later than the sample before");
   }

@@ -42,6 +42,10 @@ inline glm::dmat4 clip_from_world(const Camera& camera) {
   return clip_from_view(camera) * view_from_world(camera);
 }
 
+/// Whether the axes of a view are unit vectors, at right angles, and right x up = -forward; up to
+/// rounding. False for what is not finite.
+bool is_view_frame(const glm::dvec3& right, const glm::dvec3& up, const glm::dvec3& forward);
+
 struct PathSample {
   double time_s = 0;
   glm::dvec3 eye{0};
@@ -53,7 +57,8 @@ struct CameraPath {
   std::vector<PathSample> samples;
 };
 
-CameraPath read_path(const std::filesystem::path& file);
+/// remarks: what was passed over, if wanted.
+CameraPath read_path(const std::filesystem::path& file, Remarks* remarks = nullptr);
 Json format_path(const CameraPath& path, const Json& provenance);
 
 /// n cameras at equal steps of time over the whole path, both ends included (n = 1: the start).

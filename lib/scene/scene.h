@@ -10,6 +10,7 @@
 
 #include "base/ids.h"
 #include "base/json.h"
+#include "base/remarks.h"
 #include "mesh/mesh.h"
 #include "mesh/split_corners.h"
 #include "scene/lighting.h"
@@ -31,7 +32,7 @@ struct SceneMesh {
   std::string up = "z";
   double scale = 1;
   std::string substitutes;      ///< what this mesh stands in for; empty: it is what its name says
-  std::string hash;             ///< hash_file() of the file
+  std::string hash;             ///< hash_hex() of the bytes that were parsed
   std::size_t n_triangles = 0;  ///< known even when the scene was read without meshes
   TriMesh mesh;     ///< as drawn, one normal a vertex; empty when the scene was read without meshes
   VertexWeld weld;  ///< which of its vertices are one
@@ -70,6 +71,8 @@ struct Scene {
   std::vector<SceneMesh> meshes;
   std::vector<SceneObject> objects;
   std::string hash;  ///< of what scene.json says (white space aside) and of every mesh file's bytes
+  std::string file_hash;             ///< hash_hex() of scene.json's bytes
+  std::vector<FileRemarks> remarks;  ///< on scene.json and its meshes, where there are any
 
   const SceneMesh& mesh_of(const SceneObject& object) const { return meshes[index(object.mesh)]; }
   const Material& material_of(const SceneObject& object) const {

@@ -162,14 +162,15 @@ void apply_up_and_scale(SceneMesh& mesh) {
   for (glm::vec3& n : mesh.mesh.corner_normals) n = turn_up_axis(mesh.up, n);
 }
 
-// Reads and checks one mesh file; place: "meshes[3]".
-void load_mesh(const std::filesystem::path& scene_file, const std::string& place, SceneMesh& mesh) {
+// Reads and checks one mesh file; place: "meshes[3]". Returns what is to be said of it.
+FileRemarks load_mesh(const std::filesystem::path& scene_file, const std::string& place,
+                      SceneMesh& mesh) {
   const std::filesystem::path file = resolve_inside(scene_file, place + ".file", mesh.file);
-  const std::string hash = hash_file(file);
-  if (!mesh.hash.empty() && mesh.hash != hash)
+  MeshSource source;
+  mesh.mesh = read_mesh(file, &source);
+  if (!mesh.hash.empty() && mesh.hash != source.hash)
     throw InputError(file.string(), "", "mesh file changed since the scene was written");
-  mesh.hash = hash;
-  mesh.mesh = read_mesh(file);
+  mesh.hash = source.hash;
   const std::size_t n = mesh.mesh.triangles.size();
   if (n == 0) throw InputError(file.string(), "", "mesh has no faces");
   if (mesh.n_triangles != 0 && mesh.n_triangles != n)
@@ -186,23 +187,53 @@ void load_mesh(const std::filesystem::path& scene_file, const std::string& place
   mesh.mesh = std::move(split.mesh);
   mesh.weld = std::move(split.weld);
   mesh.has_twins = split.has_twins;
+  return {file, source.remarks};
 }
 
 void load_meshes(const std::filesystem::path& file, const ReadSceneOptions& options, Scene& scene) {
+  std::vector<FileRemarks> remarks(scene.meshes.size());
   parallel_for(scene.meshes.size(), options.n_threads, [&](std::size_t i) {
     SceneMesh& mesh = scene.meshes[i];
     if (options.with_meshes || mesh.hash.empty() || mesh.n_triangles == 0)
-      load_mesh(file, "meshes[" + std::to_string(i) + "]", mesh);
+      remarks[i] = load_mesh(file, "meshes[" + std::to_string(i) + "]", mesh);
     if (!options.with_meshes) mesh.mesh = {}, mesh.weld = {};
   });
+  for (FileRemarks& of_mesh : remarks)
+    if (!of_mesh.remarks.empty()) scene.remarks.push_back(std::move(of_mesh));
+}
+
+void remark_scene_keys(const JsonCursor& root, Remarks& remarks) {
+  constexpr const char* kScene[] = {"format", "version", "made_by",   "name",   "area",   "ground",
+                                    "sky",    "light",   "materials", "meshes", "objects"};
+  constexpr const char* kArea[] = {"lo", "hi"};
+  constexpr const char* kGround[] = {"z", "color"};
+  constexpr const char* kSky[] = {"color"};
+  constexpr const char* kLight[] = {"toward_light", "color", "ambient_sky", "ambient_ground"};
+  constexpr const char* kMaterial[] = {"name", "base_color", "base_color_texture", "double_sided"};
+  constexpr const char* kMesh[] = {"name",      "file", "up",         "scale",
+                                   "triangles", "hash", "substitutes"};
+  constexpr const char* kObject[] = {"name",        "mesh",     "material",
+                                     "translation", "rotation", "scale"};
+  remark_unknown_keys(root, "the scene", kScene, &remarks);
+  remark_unknown_keys(root.at("area"), "area", kArea, &remarks);
+  remark_unknown_keys(root.at("ground"), "ground", kGround, &remarks);
+  remark_unknown_keys(root.at("sky"), "sky", kSky, &remarks);
+  remark_unknown_keys(root.at("light"), "light", kLight, &remarks);
+  const auto each = [&](const char* array, const char* what, std::span<const char* const> known) {
+    for (std::size_t i = 0; i < root.at(array).size(); ++i)
+      remark_unknown_keys(root.at(array).at(i), what, known, &remarks);
+  };
+  each("materials", "a material", kMaterial);
+  each("meshes", "a mesh", kMesh);
+  each("objects", "an object", kObject);
 }
 
 }  // namespace
 
 Scene read_scene(const std::filesystem::path& file, const ReadSceneOptions& options) {
-  const Json json = read_json(file, kSceneFormat, 1);
-  const JsonCursor root(json, file);
   Scene scene;
+  const Json json = read_json(file, kSceneFormat, 1, "", &scene.file_hash);
+  const JsonCursor root(json, file);
   scene.name = root.at("name").string();
   scene.area = read_area(root.at("area"));
   scene.lighting = read_lighting(root);
@@ -215,6 +246,9 @@ Scene read_scene(const std::filesystem::path& file, const ReadSceneOptions& opti
   each("materials", [&](const JsonCursor& at) { scene.materials.push_back(read_material(at)); });
   each("meshes", [&](const JsonCursor& at) { scene.meshes.push_back(read_mesh_entry(at)); });
   each("objects", [&](const JsonCursor& at) { scene.objects.push_back(read_object(at, scene)); });
+  Remarks remarks;
+  remark_scene_keys(root, remarks);
+  if (!remarks.empty()) scene.remarks.push_back({file, std::move(remarks)});
   load_meshes(file, options, scene);
   std::string hashes = hash_hex(json.dump());
   for (const SceneMesh& mesh : scene.meshes) hashes += mesh.hash;

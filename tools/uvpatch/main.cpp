@@ -52,8 +52,8 @@ Json format_report(const TexturedPatch& patch) {
 int run(Tool& tool, const UvpatchArguments& a) {
   std::string picture, extension = ".png";
   if (!a.texture.empty()) {
-    read_image_rgba8(a.texture);  // throws when it is no picture
     picture = read_file(a.texture);
+    decode_image_rgba8(picture, a.texture);  // throws when it is no picture
     extension = extension_of(check_image_header(picture, a.texture));
     register_beside(tool, extension);
   }
