@@ -4,11 +4,12 @@
 #include <cmath>
 #include <map>
 #include <mutex>
-#include <set>
 
+#include "bake/pack_inputs.h"
 #include "base/error.h"
 #include "base/file.h"
 #include "base/srgb.h"
+#include "bundle/bundle_writer.h"
 #include "image/half.h"
 #include "mesh/optimize.h"
 
@@ -37,53 +38,13 @@ void optimize_order(CellMesh& mesh) {
   mesh = std::move(out);
 }
 
-// The meshes of a cell, both kinds, by object; with every outside object exactly once.
-struct CellMeshes {
-  std::vector<CellMesh> meshes;
-  std::vector<Representation> kinds;
-};
-
-CellMeshes read_cell_meshes(const Scene& scene, const CellSet& cells, const PackInputs& inputs,
-                            const std::string& captures_key, CellId cell) {
-  CellMeshes out;
-  std::string made_from;  // of the first file
-  std::vector<int> n_times(scene.objects.size(), 0);
-  for (const fs::path& folder : {inputs.svmesh, inputs.mvmesh}) {
-    const fs::path file = folder / weighted_mesh_name(cell);
-    const auto kind =
-        folder == inputs.svmesh ? Representation::single_view : Representation::multi_view;
-    WeightedMeshes read = read_weighted_meshes(file, scene, kind, cell);
-    if (read.captures != captures_key)
-      throw InputError(file.string(), "header",
-                       "was derived from other captures; run svmesh and mvmesh again");
-    if (!made_from.empty() && read.made_from != made_from)
-      throw InputError(file.string(), "header",
-                       "was derived with other options than its counterpart in svmesh");
-    made_from = read.made_from;
-    for (CellMesh& mesh : read.meshes) {
-      ++n_times[index(mesh.object)];
-      optimize_order(mesh);
-      out.meshes.push_back(std::move(mesh));
-      out.kinds.push_back(kind);
-    }
-  }
-  for (std::size_t o = 0; o < n_times.size(); ++o) {
-    const int expected = is_inside(cells, cell, ObjectId(o)) ? 0 : 1;
-    if (n_times[o] != expected)
-      throw InputError(inputs.svmesh.string(), "cell " + std::to_string(static_cast<int>(cell)),
-                       "object " + std::to_string(o) + " is in " + std::to_string(n_times[o]) +
-                           " of svmesh and mvmesh, not in " + std::to_string(expected) +
-                           "; derive both with the same options");
-  }
-  return out;
-}
-
 BundleObject describe(const CellMesh& mesh, Representation kind) {
   BundleObject out;
   out.object = static_cast<std::int32_t>(mesh.object);
   out.kind = static_cast<std::uint32_t>(kind);
   out.n_vertices = static_cast<std::uint32_t>(mesh.source_vertex.size());
   out.n_triangles = static_cast<std::uint32_t>(mesh.triangles.size());
+  if (mesh.source_vertex.empty()) return out;
   glm::vec3 lo(1e30f), hi(-1e30f);
   for (const glm::vec3& p : mesh.vertices.positions) lo = glm::min(lo, p), hi = glm::max(hi, p);
   for (int k = 0; k < 3; ++k) out.lo[k] = lo[k], out.hi[k] = hi[k];
@@ -122,30 +83,6 @@ CellGeometry make_geometry(const Scene& scene, const CellMeshes& cell) {
   return out;
 }
 
-// Which objects' tiles a centre's textures need.
-using TilesNeeded = std::map<CentreId, std::set<ObjectId>>;
-
-void add_needed(const CellSet& cells, CellId cell, const CellMeshes& meshes, TilesNeeded& needed) {
-  const auto views = views_of(cells.grid, cell);
-  for (std::size_t m = 0; m < meshes.meshes.size(); ++m)
-    for (std::size_t k = 0; k < views.size(); ++k)
-      if (k == 0 || meshes.kinds[m] == Representation::multi_view)
-        needed[views[k]].insert(meshes.meshes[m].object);
-}
-
-void copy_into(const fs::path& from, const fs::path& to) {
-  make_folder(to.parent_path());
-  write_file(to, read_file(from));
-}
-
-// A .gltf keeps its buffers in other files, which a bundle would lack.
-void check_self_contained(const Scene& scene, const fs::path& scene_file) {
-  for (const SceneMesh& mesh : scene.meshes)
-    if (fs::path(mesh.file).extension() == ".gltf")
-      throw InputError(scene_file.string(), "mesh '" + mesh.file + "'",
-                       "keeps its buffers in other files; a bundle takes .glb, .ply, .obj, .off");
-}
-
 CentreTextures read_textures(const fs::path& captures, const CaptureSettings& settings,
                              CentreId centre, const std::set<ObjectId>& objects) {
   CentreCaptures file(capture_file_of(captures, centre), settings);
@@ -160,6 +97,63 @@ std::size_t count_inside(const Scene& scene, const CellSet& cells, CellId cell) 
   for (const ObjectId object : cells.inside[index(cell)])
     n += scene.mesh_of(scene.objects[index(object)]).mesh.triangles.size();
   return n;
+}
+
+void add_counts(const Scene& scene, const CellSet& cells, CellId cell, const CellMeshes& meshes,
+                PackCounts& counts) {
+  counts.n_inside += cells.inside[index(cell)].size();
+  counts.n_triangles_inside += count_inside(scene, cells, cell);
+  for (std::size_t m = 0; m < meshes.meshes.size(); ++m) {
+    counts.n_triangles_outside += meshes.meshes[m].triangles.size();
+    ++(meshes.kinds[m] == Representation::single_view ? counts.n_single_view : counts.n_multi_view);
+  }
+}
+
+// The meshes of the i-th cell, as they were checked, in the order of drawing.
+CellMeshes read_again(const Scene& scene, const CellSet& cells, const PackInputs& inputs,
+                      const CheckedInputs& checked, const std::vector<CellId>& list,
+                      std::size_t i) {
+  CellMeshes meshes = read_cell_meshes(scene, cells, inputs, checked.settings.key(), list[i]);
+  if (meshes.hash != checked.mesh_hashes[i])
+    throw InputError((inputs.svmesh / weighted_mesh_name(list[i])).string(), "",
+                     "or its counterpart changed while it was packed; run cellpack again");
+  for (CellMesh& mesh : meshes.meshes) optimize_order(mesh);
+  return meshes;
+}
+
+std::vector<CentreId> centres_with_tiles(const TilesNeeded& tiles) {
+  std::vector<CentreId> centres;
+  for (const auto& [centre, objects] : tiles) centres.push_back(centre);
+  return centres;
+}
+
+BundleManifest make_manifest(const Scene& scene, const CellSet& cells, const CheckedInputs& checked,
+                             const std::vector<CellId>& list, TextureFormat format,
+                             const Json& made_by) {
+  BundleManifest manifest;
+  manifest.scene_hash = scene.hash;
+  manifest.cells_hash = cells.file_hash;
+  manifest.captures = checked.settings.key();
+  std::string hashes;
+  for (const std::string& hash : checked.mesh_hashes) hashes += hash;
+  manifest.meshes = hash_hex(hashes);
+  manifest.resolution_px = checked.settings.density.resolution_px;
+  manifest.texture_format = format;
+  manifest.cells = list;
+  manifest.centres = centres_with_tiles(checked.tiles);
+  manifest.made_by = made_by;
+  return manifest;
+}
+
+// What was read stands in memory, or must be as it was.
+void copy_inputs(const Scene& scene, const CellSet& cells, const PackInputs& inputs,
+                 BundleWriter& writer) {
+  for (const SceneMesh& mesh : scene.meshes) {
+    const fs::path file = resolve_inside(inputs.scene_file, "meshes", mesh.file);
+    writer.write_copy(mesh.file, read_unchanged(file, mesh.hash), mesh.hash);
+  }
+  writer.write_copy("scene.json", read_unchanged(inputs.scene_file, scene.file_hash));
+  writer.write_copy("cells.json", read_unchanged(inputs.cells_file, cells.file_hash));
 }
 
 // The curve at every half in [0, 1], by its bits: captures hold halves.
@@ -203,51 +197,31 @@ void append_tile(const CaptureTile& tile, CentreTextures& textures) {
 PackCounts pack_bundle(const Scene& scene, const CellSet& cells, const PackInputs& inputs,
                        const std::vector<CellId>& list, TextureFormat format, const Json& made_by,
                        const fs::path& bundle, int n_threads, const Progress& progress) {
-  const CaptureSettings settings =
-      read_settings(inputs.captures, scene, hash_file(inputs.cells_file));
-  check_self_contained(scene, inputs.scene_file);
-  std::error_code ignored;
-  fs::remove(bundle / kManifestName, ignored);  // from here on the folder is no bundle
-  make_folder(bundle / "cells");
-  make_folder(bundle / "centres");
+  const CheckedInputs checked = check_pack_inputs(scene, cells, inputs, list, n_threads);
+  const std::vector<CentreId> centres = centres_with_tiles(checked.tiles);
+  BundleWriter writer(bundle, make_manifest(scene, cells, checked, list, format, made_by));
 
   PackCounts counts;
-  TilesNeeded needed;
-  std::mutex mutex;  // guards both
+  counts.n_cells = list.size();
+  counts.n_centres = centres.size();
+  std::mutex mutex;  // guards the counts
   const auto pack_cell = [&](std::size_t i) {
-    const CellMeshes meshes = read_cell_meshes(scene, cells, inputs, settings.key(), list[i]);
-    write_cell_geometry(cell_file(bundle, list[i]), make_geometry(scene, meshes));
+    const CellMeshes meshes = read_again(scene, cells, inputs, checked, list, i);
+    writer.write(list[i], make_geometry(scene, meshes));
     const std::lock_guard lock(mutex);
-    add_needed(cells, list[i], meshes, needed);
-    counts.n_inside += cells.inside[index(list[i])].size();
-    counts.n_triangles_inside += count_inside(scene, cells, list[i]);
-    for (std::size_t m = 0; m < meshes.meshes.size(); ++m) {
-      counts.n_triangles_outside += meshes.meshes[m].triangles.size();
-      ++(meshes.kinds[m] == Representation::single_view ? counts.n_single_view
-                                                        : counts.n_multi_view);
-    }
+    add_counts(scene, cells, list[i], meshes, counts);
   };
   parallel_for(list.size(), n_threads, pack_cell, progress);
-
-  BundleManifest manifest{scene.hash, settings.density.resolution_px, format, list, {}, made_by};
-  for (const auto& [centre, objects] : needed) manifest.centres.push_back(centre);
   const auto pack_centre = [&](std::size_t i) {
-    const CentreId centre = manifest.centres[i];
     const CentreTextures textures =
-        read_textures(inputs.captures, settings, centre, needed.at(centre));
-    write_centre_textures(centre_file(bundle, centre), textures, format);
+        read_textures(inputs.captures, checked.settings, centres[i], checked.tiles.at(centres[i]));
+    writer.write(centres[i], textures);
     const std::lock_guard lock(mutex);
     counts.texel_bytes += textures.texels.size() * sizeof(Rgba8);
   };
-  parallel_for(manifest.centres.size(), n_threads, pack_centre, progress);
-
-  for (const SceneMesh& mesh : scene.meshes)
-    copy_into(resolve_inside(inputs.scene_file, "meshes", mesh.file), bundle / mesh.file);
-  copy_into(inputs.scene_file, bundle / "scene.json");
-  copy_into(inputs.cells_file, bundle / "cells.json");
-  write_file(bundle / kManifestName, format_json(format_manifest(manifest)));
-  counts.n_cells = list.size();
-  counts.n_centres = manifest.centres.size();
+  parallel_for(centres.size(), n_threads, pack_centre, progress);
+  copy_inputs(scene, cells, inputs, writer);
+  writer.commit();
   return counts;
 }
 

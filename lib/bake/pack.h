@@ -20,8 +20,9 @@ struct PackCounts {
 };
 
 /// Packs the given cells. Each needs its PLY in both svmesh and mvmesh, and every object outside a
-/// cell must be in exactly one of them; otherwise InputError. The manifest is written last; without
-/// it the folder is no bundle.
+/// cell must be in exactly one of them; otherwise InputError. All inputs are checked before
+/// anything is written; a bundle that was there plays on until the new one is whole
+/// (bundle/bundle_writer.h). cells: read from inputs.cells_file.
 PackCounts pack_bundle(const Scene& scene, const CellSet& cells, const PackInputs& inputs,
                        const std::vector<CellId>& list, TextureFormat format, const Json& made_by,
                        const std::filesystem::path& bundle, int n_threads,

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
+#include "base/folder_lock.h"
 #include "bundle/representation.h"
 #include "cells/cells.h"
 #include "image/image.h"
@@ -18,7 +20,7 @@ struct BundleObject {
   std::uint32_t kind = 0;  ///< a Representation
   std::uint32_t n_vertices = 0;
   std::uint32_t n_triangles = 0;
-  float lo[3] = {}, hi[3] = {};  ///< box of its vertices, world
+  float lo[3] = {}, hi[3] = {};  ///< box of its vertices, world; zeros when it has none
 };
 
 /// Geometry of a cell: objects one after another, indices counted from each object's first vertex.
@@ -45,19 +47,25 @@ struct BundleTile {
 
 /// Textures of a centre: 4 bytes a texel, sRGB colour and a depth code as alpha.
 struct CentreTextures {
-  std::vector<BundleTile> tiles;
+  std::vector<BundleTile> tiles;  ///< ascending by object; their texels one after another
   std::vector<Rgba8> texels;
 };
 
 enum class TextureFormat { rgba8, bc3 };
 
 struct BundleManifest {
-  std::string scene_hash;
+  std::string scene_hash;  ///< Scene::hash
+  std::string cells_hash;  ///< of cells.json's bytes
+  std::string captures;    ///< key of the captures
+  std::string meshes;      ///< hash of the weighted meshes' hashes
   int resolution_px = 0;
   TextureFormat texture_format = TextureFormat::rgba8;
   std::vector<CellId> cells;
   std::vector<CentreId> centres;
   Json made_by;
+  /// Of meshes (by their path in scene.json) the hash of the bytes, of section files
+  /// ("cells/cell-00012.geo") their table_hash(), as hash_hex.
+  std::map<std::string, std::string> files = {};
 };
 
 inline constexpr double kOffsetUnit = 1.0 / 1024;
@@ -65,7 +73,8 @@ inline constexpr double kOffsetUnit = 1.0 / 1024;
 /// Opens a bundle; everything else is read from it on demand. Reading is const and thread-safe.
 class Bundle {
  public:
-  /// Throws InputError unless the folder holds a whole bundle.
+  /// Throws InputError unless the folder holds a whole bundle whose manifest, scene, meshes and
+  /// cells are those that were packed. While it lives cellpack leaves its files there.
   explicit Bundle(const std::filesystem::path& folder, int n_threads = 0);
 
   const BundleManifest& manifest() const { return manifest_; }
@@ -73,22 +82,35 @@ class Bundle {
   const CellSet& cells() const { return cells_; }
   bool has(CellId cell) const;
   bool has(CentreId centre) const;
+  /// Throw InputError when the file is missing, damaged, of another cell or centre, of another
+  /// bake, or not the file that was packed.
   CellGeometry read_cell(CellId cell) const;
   /// texels: memory to read into, its contents lost.
   CentreTextures read_centre(CentreId centre, std::vector<Rgba8> texels = {}) const;
 
  private:
-  std::filesystem::path folder_;
   BundleManifest manifest_;
+  std::string key_;
+  std::filesystem::path bake_;  // the folder of its files
+  FolderHold hold_;
   Scene scene_;
   CellSet cells_;
 };
 
-std::filesystem::path cell_file(const std::filesystem::path& bundle, CellId cell);
-std::filesystem::path centre_file(const std::filesystem::path& bundle, CentreId centre);
-void write_cell_geometry(const std::filesystem::path& file, const CellGeometry& geometry);
-void write_centre_textures(const std::filesystem::path& file, const CentreTextures& textures,
-                           TextureFormat format);
+/// What tells a bake from every other: a hash of all that the manifest says but `files`.
+std::string bake_key(const BundleManifest& manifest);
+/// The folder of a bake's files in the bundle's.
+std::filesystem::path bake_folder(const std::filesystem::path& bundle, const std::string& key);
+/// "cells/cell-00012.geo", "centres/centre-00034.tex": in the bake's folder.
+std::string cell_name(CellId cell);
+std::string centre_name(CentreId centre);
+
+/// Return the file's entry for BundleManifest::files. key: of the bake.
+std::string write_cell_geometry(const std::filesystem::path& file, CellId cell,
+                                const std::string& key, const CellGeometry& geometry);
+std::string write_centre_textures(const std::filesystem::path& file, CentreId centre,
+                                  const std::string& key, const CentreTextures& textures,
+                                  TextureFormat format);
 Json format_manifest(const BundleManifest& manifest);
 inline constexpr const char* kManifestName = "bundle.json";
 

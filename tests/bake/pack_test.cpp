@@ -2,15 +2,29 @@
 
 #include <gtest/gtest.h>
 
+#include <csignal>
 #include <map>
 
-#include "bake/small_bake.h"
+#include <sys/resource.h>
+
+#include "bake/bundle_copy.h"
+#include "bundle/bundle_writer.h"
 #include "common/expect_input_error.h"
 #include "common/same_every_time.h"
 
 namespace viewcell {
 namespace {
 namespace fs = std::filesystem;
+
+// Hashes of all files of a folder, by their paths; none where it is not there.
+std::map<fs::path, std::string> contents_of(const fs::path& folder) {
+  std::map<fs::path, std::string> out;
+  if (!fs::exists(folder)) return out;
+  for (const auto& entry : fs::recursive_directory_iterator(folder))
+    out[fs::relative(entry.path(), folder)] =
+        entry.is_regular_file() ? hash_file(entry.path()) : "folder";
+  return out;
+}
 
 // The shared bake with meshes of its own, to be changed.
 struct MeshesCopy {
@@ -24,7 +38,8 @@ struct MeshesCopy {
     }
   }
   PackCounts pack() const { return shared_bake().pack(bundle, inputs, shared_bake().list); }
-  // Reads, changes and writes the meshes of a cell; packing must then be refused.
+  // Reads, changes and writes the meshes of a cell; packing must then be refused, and the bundle
+  // that was there be as it was.
   template <typename Change>
   void refused(const fs::path& from, const Change& change, const char* message) const {
     const CellId cell = shared_bake().list[4];
@@ -33,8 +48,9 @@ struct MeshesCopy {
     WeightedMeshes meshes = read_weighted_meshes(file, shared_bake().scene);
     change(meshes);
     write_weighted_meshes(file, meshes, "test");
+    const auto bundle_before = contents_of(bundle);
     EXPECT_INPUT_ERROR(pack(), message);
-    EXPECT_FALSE(fs::exists(bundle / kManifestName));
+    EXPECT_EQ(contents_of(bundle), bundle_before);
     write_file(file, before);
   }
 };
@@ -150,11 +166,7 @@ TEST(Pack, SameBytesForAnyNumberOfThreads) {
     const TemporaryFolder folder;
     pack_bundle(small.scene, small.cells, small.inputs, small.list, TextureFormat::rgba8,
                 test_provenance(), folder.path(), n_threads, {});
-    std::map<fs::path, std::string> out;
-    for (const auto& entry : fs::recursive_directory_iterator(folder.path()))
-      if (entry.is_regular_file())
-        out[fs::relative(entry.path(), folder.path())] = hash_file(entry.path());
-    return out;
+    return contents_of(folder.path());
   });
   EXPECT_GT(hashes.size(), small.list.size());  // a file a cell, and more
 }
@@ -207,10 +219,152 @@ TEST(Pack, RefusesAMissingFileOrOtherCells) {
   EXPECT_INPUT_ERROR(shared_bake().pack(copy.bundle, inputs, shared_bake().list), "none");
   inputs = copy.inputs;
   inputs.cells_file = copy.folder.add("cells.json", "{}");
-  EXPECT_INPUT_ERROR(shared_bake().pack(copy.bundle, inputs, shared_bake().list), "captures");
+  EXPECT_INPUT_ERROR(shared_bake().pack(copy.bundle, inputs, shared_bake().list),
+                     "cells.json: changed while it was packed");
+  EXPECT_FALSE(fs::exists(copy.bundle));
   fs::remove(copy.inputs.mvmesh / weighted_mesh_name(CellId(2)));
-  EXPECT_INPUT_ERROR(copy.pack(), "cell-00002.ply");
+  EXPECT_INPUT_ERROR(copy.pack(), "cell-00002.ply: is not there; run mvmesh");
+  EXPECT_FALSE(fs::exists(copy.bundle));
   EXPECT_EQ(shared_bake().pack(copy.bundle, copy.inputs, {CellId(4)}).n_cells, 1u);
+}
+
+TEST(Pack, ASceneWithoutObjectsIsRefused) {
+  const MeshesCopy copy;
+  Scene empty = shared_bake().scene;
+  empty.objects.clear();
+  EXPECT_INPUT_ERROR(pack_bundle(empty, shared_bake().cells, copy.inputs, {CellId(0)},
+                                 TextureFormat::rgba8, test_provenance(), copy.bundle, 2, {}),
+                     "scene.json: objects: is empty");
+  EXPECT_INPUT_ERROR(
+      read_weighted_meshes(copy.inputs.svmesh / weighted_mesh_name(CellId(0)), empty),
+      "the scene has none");
+}
+
+// --- packing into a bundle that is there ---
+
+fs::path only_bake(const fs::path& bundle) {
+  std::vector<fs::path> found;
+  for (const auto& entry : fs::directory_iterator(bundle))
+    if (entry.is_directory()) found.push_back(entry.path());
+  EXPECT_EQ(found.size(), 1u);
+  return found.at(0);
+}
+
+TEST(Repack, TheNewBakeReplacesTheOld) {
+  const MeshesCopy copy;
+  copy.pack();
+  const fs::path old = only_bake(copy.bundle);
+  const auto before = contents_of(copy.bundle);
+  shared_bake().pack(copy.bundle, copy.inputs, {CellId(4)});
+  EXPECT_NE(only_bake(copy.bundle), old);
+  EXPECT_EQ(Bundle(copy.bundle).manifest().cells, std::vector<CellId>{CellId(4)});
+  copy.pack();
+  EXPECT_EQ(contents_of(copy.bundle), before);
+  // Over itself: what was damaged is whole again.
+  put_bytes(old / "cells" / "cell-00001.geo", "damage");
+  copy.pack();
+  EXPECT_EQ(contents_of(copy.bundle), before);
+}
+
+TEST(Repack, AMissingInputLeavesTheOldBundleAsItIs) {
+  const MeshesCopy copy;
+  copy.pack();
+  const auto before = contents_of(copy.bundle);
+  const std::vector<CellId> few = {CellId(2), CellId(4)};
+  PackInputs inputs = copy.inputs;
+  inputs.captures = copy.folder / "captures";
+  fs::copy(copy.inputs.captures, inputs.captures, fs::copy_options::recursive);
+  for (const fs::path& missing :
+       {copy.inputs.svmesh / "cell-00004.ply", copy.inputs.mvmesh / "cell-00002.ply",
+        capture_file_of(inputs.captures, views_of(shared_bake().cells.grid, few[0])[0]),
+        inputs.captures / kCapturesManifest}) {
+    fs::rename(missing, copy.folder / "away");
+    EXPECT_INPUT_ERROR(shared_bake().pack(copy.bundle, inputs, few), "is not there");
+    EXPECT_INPUT_ERROR(shared_bake().pack(copy.folder / "new", inputs, few),
+                       missing.filename().string());
+    fs::rename(copy.folder / "away", missing);
+    EXPECT_EQ(contents_of(copy.bundle), before);
+    EXPECT_FALSE(fs::exists(copy.folder / "new"));
+  }
+}
+
+// No file may grow beyond a size: the writes fail as on a full disk, wherever it fills up.
+TEST(Repack, AFullDiskLeavesTheOldBundleAsItIs) {
+  const MeshesCopy copy;
+  copy.pack();
+  const auto before = contents_of(copy.bundle);
+  std::signal(SIGXFSZ, SIG_IGN);
+  rlimit unlimited{};
+  ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &unlimited), 0);
+  for (const rlim_t most : {0u, 100u, 1000u, 3000u, 20000u}) {
+    const rlimit limit{most, unlimited.rlim_max};
+    ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &limit), 0);
+    EXPECT_THROW(shared_bake().pack(copy.bundle, copy.inputs, {CellId(2), CellId(4)}), MachineError)
+        << most;
+    EXPECT_THROW(shared_bake().pack(copy.folder / "new", copy.inputs, {CellId(4)}), MachineError)
+        << most;
+    ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &unlimited), 0);
+    EXPECT_EQ(contents_of(copy.bundle), before) << most;
+    EXPECT_FALSE(fs::exists(copy.folder / "new"));
+  }
+}
+
+TEST(Repack, WhatAKilledRunLeftGoes) {
+  const MeshesCopy copy;
+  copy.pack();
+  const auto before = contents_of(copy.bundle);
+  fs::create_directories(copy.bundle / "bake-0123456789abcdef" / "cells");
+  put_bytes(copy.bundle / "bake-0123456789abcdef" / "cells" / "cell-00000.geo", "half of i");
+  put_bytes(copy.bundle / ".viewcell-lock", "cellpack 1");
+  copy.pack();
+  EXPECT_EQ(contents_of(copy.bundle), before);
+}
+
+TEST(Repack, APlayersBakeStaysUntilThePlayerIsGone) {
+  const MeshesCopy copy;
+  copy.pack();
+  {
+    const Bundle playing(copy.bundle);
+    shared_bake().pack(copy.bundle, copy.inputs, {CellId(4)});
+    for (const CellId cell : playing.manifest().cells) EXPECT_NO_THROW(playing.read_cell(cell));
+    EXPECT_EQ(Bundle(copy.bundle).manifest().cells.size(), 1u);
+  }
+  shared_bake().pack(copy.bundle, copy.inputs, {CellId(4)});
+  EXPECT_TRUE(only_bake(copy.bundle).filename().string().starts_with("bake-"));
+}
+
+TEST(Repack, OnePackerAtATime) {
+  const MeshesCopy copy;
+  copy.pack();
+  const BundleWriter writer(copy.bundle, Bundle(copy.bundle).manifest());
+  // The lock is of the process: another one is refused.
+  EXPECT_EXIT(
+      {
+        try {
+          FolderLock(copy.bundle, "cellpack", "0");
+        } catch (const InputError&) {
+          ::_exit(9);
+        }
+      },
+      testing::ExitedWithCode(9), "");
+}
+
+// Files of a bundle of version 1 lay beside the manifest.
+TEST(Repack, FilesOfVersion1Go) {
+  const MeshesCopy copy;
+  copy.pack();
+  const auto before = contents_of(copy.bundle);
+  const fs::path bake = only_bake(copy.bundle);
+  for (const auto& entry : fs::directory_iterator(bake))
+    fs::copy(entry.path(), copy.bundle / entry.path().filename(), fs::copy_options::recursive);
+  put_bytes(copy.bundle / "cells" / "notes.txt", "mine");
+  put_bytes(copy.bundle / kManifestName, R"({"format": "viewcell-bundle", "version": 1})");
+  fs::remove_all(bake);
+  copy.pack();
+  auto after = contents_of(copy.bundle);
+  EXPECT_EQ(after.erase("cells/notes.txt"), 1u);
+  EXPECT_EQ(after.erase("cells"), 1u);
+  EXPECT_EQ(after, before);
 }
 
 }  // namespace

@@ -90,7 +90,8 @@ struct SmallBake {
   SmallBake() {
     for (int i = 0; i < cells.grid.n_cells(); ++i) list.push_back(CellId(i));
     write_file(inputs.cells_file, format_json(format_cells(cells, test_provenance())));
-    settings = {scene.hash, hash_file(inputs.cells_file), {.resolution_px = 256}, "embree"};
+    cells = read_cells(inputs.cells_file);
+    settings = {scene.hash, cells.file_hash, {.resolution_px = 256}, "embree"};
     for (const auto& part : {inputs.captures, inputs.svmesh, inputs.mvmesh}) make_folder(part);
     capture();
     derive(Representation::single_view, inputs.svmesh);

@@ -1,11 +1,12 @@
 #include "bundle/bundle.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
-#include <fstream>
+#include <set>
 
+#include "bake/bundle_copy.h"
 #include "bake/pack.h"
-#include "bake/small_bake.h"
 #include "base/srgb.h"
 #include "common/expect_input_error.h"
 #include "common/mutate.h"
@@ -13,13 +14,6 @@
 namespace viewcell {
 namespace {
 namespace fs = std::filesystem;
-
-// A copy of the shared bundle, to be damaged.
-struct BundleCopy {
-  TemporaryFolder folder;
-  fs::path path = folder.path() / "bundle";
-  BundleCopy() { fs::copy(shared_bundle(), path, fs::copy_options::recursive); }
-};
 
 void expect_same(const CellGeometry& a, const CellGeometry& b) {
   ASSERT_EQ(a.objects.size(), b.objects.size());
@@ -39,10 +33,26 @@ void expect_same(const CellGeometry& a, const CellGeometry& b) {
   EXPECT_EQ(a.views, b.views);
 }
 
-// Two objects of 4 and 3 vertices, 2 and 1 triangles.
+// A cell that has objects 1 and 3, both tori, outside.
+CellId chosen_cell() {
+  const CellSet& cells = shared_bake().cells;
+  for (const CellId cell : shared_bake().list)
+    if (!is_inside(cells, cell, ObjectId(1)) && !is_inside(cells, cell, ObjectId(3))) return cell;
+  throw BugError("no such cell");
+}
+
+// Two objects of 4 and 3 vertices, 2 and 1 triangles, among others without any.
 CellGeometry make_geometry() {
   CellGeometry g;
-  g.objects = {{1, 1, 4, 2, {0, 1, 2}, {3, 4, 5}}, {3, 2, 3, 1, {-1, -2, -3}, {0, 0, 0}}};
+  for (int o = 0; o < 5; ++o) {
+    if (is_inside(shared_bake().cells, chosen_cell(), ObjectId(o))) continue;
+    if (o == 1)
+      g.objects.push_back({1, 1, 4, 2, {0, 1, 2}, {3, 4, 5}});
+    else if (o == 3)
+      g.objects.push_back({3, 2, 3, 1, {-1, -2, -3}, {0, 0, 0}});
+    else
+      g.objects.push_back({o, 1, 0, 0, {0, 0, 0}, {0, 0, 0}});
+  }
   g.source_vertices = {5, 6, 7, 8, 0, 1, 1151};
   g.offsets = {0, 1, -1, 32767, -32767, 100, -100};
   g.indices = {0, 1, 2, 3, 1, 0, 2, 1, 0};
@@ -50,48 +60,80 @@ CellGeometry make_geometry() {
   return g;
 }
 
-TEST(Bundle, GeometryReadsBack) {
-  const BundleCopy copy;
-  const Bundle bundle(copy.path);
-  const CellGeometry geometry = make_geometry();
-  write_cell_geometry(cell_file(copy.path, CellId(3)), geometry);
-  expect_same(bundle.read_cell(CellId(3)), geometry);
-  write_cell_geometry(cell_file(copy.path, CellId(3)), {});
-  expect_same(bundle.read_cell(CellId(3)), {});
+BundleObject& object_of(CellGeometry& g, std::int32_t id) {
+  return *std::find_if(g.objects.begin(), g.objects.end(),
+                       [&](const BundleObject& o) { return o.object == id; });
 }
 
-TEST(Bundle, EveryIndexOfGeometryIsChecked) {
+TEST(Bundle, GeometryReadsBack) {
   const BundleCopy copy;
-  const Bundle bundle(copy.path);
-  const auto refused = [&](const auto& change) {
+  copy.write(chosen_cell(), make_geometry());
+  expect_same(Bundle(copy.path()).read_cell(chosen_cell()), make_geometry());
+}
+
+TEST(Bundle, EveryNumberOfGeometryIsChecked) {
+  const BundleCopy copy;
+  const auto refused = [&](const char* message, const auto& change) {
     CellGeometry g = make_geometry();
     change(g);
-    write_cell_geometry(cell_file(copy.path, CellId(3)), g);
-    EXPECT_INPUT_ERROR(bundle.read_cell(CellId(3)), "cell-00003.geo");
+    copy.write(chosen_cell(), g);
+    const Bundle bundle(copy.path());
+    EXPECT_INPUT_ERROR(bundle.read_cell(chosen_cell()), cell_name(chosen_cell()));
+    EXPECT_INPUT_ERROR(bundle.read_cell(chosen_cell()), message);
   };
-  refused([](CellGeometry& g) { g.objects[0].object = 5; });
-  refused([](CellGeometry& g) { g.objects[0].object = -1; });
-  refused([](CellGeometry& g) { g.objects[1].kind = 0; });
-  refused([](CellGeometry& g) { g.objects[1].kind = 3; });
-  refused([](CellGeometry& g) { g.indices[5] = 4; });
-  refused([](CellGeometry& g) { g.indices[8] = 3; });
-  refused([](CellGeometry& g) { g.indices[8] = ~0u; });
-  refused([](CellGeometry& g) { g.source_vertices[6] = 1152; });  // a torus has 48 * 24
-  refused([](CellGeometry& g) { g.source_vertices[0] = ~0u; });
-  refused([](CellGeometry& g) { g.source_vertices.pop_back(); });
-  refused([](CellGeometry& g) { g.offsets.push_back(0); });
-  refused([](CellGeometry& g) { g.indices.pop_back(); });
-  refused([](CellGeometry& g) { g.views.pop_back(); });
-  refused([](CellGeometry& g) { g.objects[0].n_vertices = ~0u, g.objects[1].n_vertices = 8; });
-  refused([](CellGeometry& g) { ++g.objects[0].n_triangles; });
-  refused([](CellGeometry& g) { g.objects.clear(); });
+  constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  refused("names object 5", [](CellGeometry& g) { object_of(g, 1).object = 5; });
+  refused("names object -1", [](CellGeometry& g) { object_of(g, 1).object = -1; });
+  refused("object 1 twice", [](CellGeometry& g) { object_of(g, 3).object = 1; });
+  refused("kind", [](CellGeometry& g) { object_of(g, 3).kind = 0; });
+  refused("kind", [](CellGeometry& g) { object_of(g, 3).kind = 3; });
+  refused("box of object 1", [](CellGeometry& g) { object_of(g, 1).lo[2] = 6; });
+  refused("box of object 1", [](CellGeometry& g) { object_of(g, 1).lo[0] = kNaN; });
+  refused("box of object 3", [](CellGeometry& g) { object_of(g, 3).hi[1] = kNaN; });
+  refused("box of object 3", [](CellGeometry& g) { object_of(g, 3).hi[1] = kInfinity; });
+  refused("box of object 3", [](CellGeometry& g) { object_of(g, 3).lo[1] = -kInfinity; });
+  refused("INDICES", [](CellGeometry& g) { g.indices[5] = 4; });
+  refused("INDICES", [](CellGeometry& g) { g.indices[8] = 3; });
+  refused("INDICES", [](CellGeometry& g) { g.indices[8] = ~0u; });
+  refused("VERTICES", [](CellGeometry& g) { g.source_vertices[6] = 1152; });  // a torus: 48 * 24
+  refused("VERTICES", [](CellGeometry& g) { g.source_vertices[0] = ~0u; });
+  refused("VIEWS", [](CellGeometry& g) { g.views[1] = 0x80; });
+  refused("counts", [](CellGeometry& g) { g.source_vertices.pop_back(); });
+  refused("counts", [](CellGeometry& g) { g.offsets.push_back(0); });
+  refused("counts", [](CellGeometry& g) { g.indices.pop_back(); });
+  refused("counts", [](CellGeometry& g) { g.views.pop_back(); });
+  refused("counts", [](CellGeometry& g) {
+    object_of(g, 1).n_vertices = ~0u, object_of(g, 3).n_vertices = 8;
+  });
+  refused("counts", [](CellGeometry& g) { ++object_of(g, 1).n_triangles; });
+  refused("lacks objects", [](CellGeometry& g) { g.objects.clear(); });
+  refused("lacks objects", [](CellGeometry& g) { g.objects.pop_back(); });
 }
+
+TEST(Bundle, ObjectsInsideTheCellAreNotOutsideIt) {
+  const BundleCopy copy;
+  const CellSet& cells = shared_bake().cells;
+  for (const CellId cell : shared_bake().list) {
+    if (cells.inside[index(cell)].empty()) continue;
+    CellGeometry g = Bundle(copy.path()).read_cell(cell);
+    g.objects[0].object = static_cast<std::int32_t>(cells.inside[index(cell)][0]);
+    copy.write(cell, g);
+    EXPECT_INPUT_ERROR(Bundle(copy.path()).read_cell(cell), "which is inside the cell");
+    return;
+  }
+  FAIL() << "no object inside any cell";
+}
+
+constexpr CentreId kCentre{5};
 
 CentreTextures make_textures() {
   CentreTextures t;
   BundleTile tile;
   tile.object = 2, tile.x = -3, tile.y = 4, tile.width_px = 4, tile.height_px = 3;
-  tile.source_px = 256, tile.eye[0] = 1.0 / 3, tile.right[1] = -1, tile.up[2] = 1;
+  const glm::dvec3 eye = eye_of(shared_bake().cells, kCentre);
+  for (int k = 0; k < 3; ++k) tile.eye[k] = eye[k];
+  tile.source_px = 256, tile.right[1] = -1, tile.up[2] = 1;
   tile.forward[0] = 1, tile.focal_px = 221.7, tile.code_scale = 1e4, tile.code_bias = -17;
   t.tiles = {tile, tile};
   t.tiles[1].object = 4, t.tiles[1].first_texel = 12;
@@ -102,17 +144,16 @@ CentreTextures make_textures() {
 
 TEST(Bundle, TexturesReadBack) {
   const BundleCopy copy;
-  const Bundle bundle(copy.path);
   const CentreTextures made = make_textures();
-  write_centre_textures(centre_file(copy.path, CentreId(4)), made, TextureFormat::rgba8);
-  const CentreTextures read = bundle.read_centre(CentreId(4));
+  copy.write(kCentre, made);
+  const CentreTextures read = Bundle(copy.path()).read_centre(kCentre);
   EXPECT_EQ(read.texels, made.texels);
   ASSERT_EQ(read.tiles.size(), 2u);
   for (std::size_t i = 0; i < 2; ++i) {
     EXPECT_EQ(read.tiles[i].object, made.tiles[i].object);
     EXPECT_EQ(read.tiles[i].x, -3);
     EXPECT_EQ(read.tiles[i].height_px, 3);
-    EXPECT_EQ(read.tiles[i].eye[0], 1.0 / 3);
+    EXPECT_EQ(read.tiles[i].eye[0], made.tiles[i].eye[0]);
     EXPECT_EQ(read.tiles[i].focal_px, 221.7);
     EXPECT_EQ(read.tiles[i].code_bias, -17);
     EXPECT_EQ(read.tiles[i].first_texel, made.tiles[i].first_texel);
@@ -122,79 +163,139 @@ TEST(Bundle, TexturesReadBack) {
 // Memory that held a longer or a shorter centre leaves no trace.
 TEST(Bundle, TexturesAreReadIntoUsedMemory) {
   const BundleCopy copy;
-  const Bundle bundle(copy.path);
   const CentreTextures made = make_textures();
-  write_centre_textures(centre_file(copy.path, CentreId(4)), made, TextureFormat::rgba8);
+  copy.write(kCentre, made);
+  const Bundle bundle(copy.path());
   for (const std::size_t n : {std::size_t{3}, made.texels.size() + 1000}) {
     const std::vector<Rgba8> used(n, Rgba8{9, 9, 9, 9});
-    EXPECT_EQ(bundle.read_centre(CentreId(4), used).texels, made.texels);
+    EXPECT_EQ(bundle.read_centre(kCentre, used).texels, made.texels);
   }
 }
 
 TEST(Bundle, CompressedTexturesReadBackNearly) {
-  const BundleCopy copy;
-  std::string manifest = read_file(copy.path / kManifestName);
-  const std::size_t at = manifest.find("rgba8");
-  ASSERT_NE(at, std::string::npos);
-  write_file(copy.path / kManifestName, manifest.replace(at, 5, "bc3"));
-  const Bundle bundle(copy.path);
+  const SmallBake& small = shared_bake();
+  const TemporaryFolder folder;
+  pack_bundle(small.scene, small.cells, small.inputs, small.list, TextureFormat::bc3,
+              test_provenance(), folder / "bundle", 2, {});
+  const BundleCopy copy(folder / "bundle");
   const CentreTextures made = make_textures();
-  write_centre_textures(centre_file(copy.path, CentreId(4)), made, TextureFormat::bc3);
-  const CentreTextures read = bundle.read_centre(CentreId(4));
+  copy.write(kCentre, made, TextureFormat::bc3);
+  const CentreTextures read = Bundle(copy.path()).read_centre(kCentre);
   ASSERT_EQ(read.texels.size(), made.texels.size());
   for (std::size_t i = 0; i < made.texels.size(); ++i)
     for (std::size_t k = 0; k < 4; ++k)
       EXPECT_NEAR(read.texels[i][k], made.texels[i][k], 8) << i << " " << k;
   // Textures of the other format, and blocks that are fewer than the tiles need.
-  write_centre_textures(centre_file(copy.path, CentreId(4)), made, TextureFormat::rgba8);
-  EXPECT_INPUT_ERROR(bundle.read_centre(CentreId(4)), "BC3");
+  copy.write(kCentre, made, TextureFormat::rgba8);
+  EXPECT_INPUT_ERROR(Bundle(copy.path()).read_centre(kCentre), "BC3");
   CentreTextures wider = made;
   wider.texels.resize(1000);
   wider.tiles[1].width_px = 60;
-  write_centre_textures(centre_file(copy.path, CentreId(4)), wider, TextureFormat::bc3);
-  EXPECT_NO_THROW(bundle.read_centre(CentreId(4)));
+  copy.write(kCentre, wider, TextureFormat::bc3);
+  EXPECT_NO_THROW(Bundle(copy.path()).read_centre(kCentre));
 }
 
-TEST(Bundle, EveryTileIsChecked) {
+TEST(Bundle, EveryNumberOfATileIsChecked) {
   const BundleCopy copy;
-  const Bundle bundle(copy.path);
-  const auto refused = [&](const auto& change) {
+  const auto refused = [&](const char* message, const auto& change) {
     CentreTextures t = make_textures();
     change(t.tiles[1], t);
-    write_centre_textures(centre_file(copy.path, CentreId(4)), t, TextureFormat::rgba8);
-    EXPECT_INPUT_ERROR(bundle.read_centre(CentreId(4)), "centre-00004.tex");
+    copy.write(kCentre, t);
+    const Bundle bundle(copy.path());
+    EXPECT_INPUT_ERROR(bundle.read_centre(kCentre), centre_name(kCentre));
+    EXPECT_INPUT_ERROR(bundle.read_centre(kCentre), message);
   };
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  refused([](BundleTile& t, auto&) { t.object = 5; });
-  refused([](BundleTile& t, auto&) { t.object = -1; });
-  refused([](BundleTile& t, auto&) { t.width_px = 1; });
-  refused([](BundleTile& t, auto&) { t.width_px = -4, t.height_px = -3; });
-  refused([](BundleTile& t, auto&) { t.height_px = 1 << 16; });
-  refused([](BundleTile& t, auto&) { t.height_px = 4; });
-  refused([](BundleTile& t, auto&) { t.first_texel = 13; });
-  refused([](BundleTile& t, auto&) { t.first_texel = ~std::uint64_t{0} - 3; });
-  refused([](BundleTile& t, auto&) { t.focal_px = std::nan(""); });
-  refused([](BundleTile& t, auto&) { t.code_scale = kInfinity; });
-  refused([](BundleTile& t, auto&) { t.code_bias = -kInfinity; });
-  refused([](BundleTile&, CentreTextures& t) { t.texels.pop_back(); });
+  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+  refused("object 5", [](BundleTile& t, auto&) { t.object = 5; });
+  refused("object -1", [](BundleTile& t, auto&) { t.object = -1; });
+  refused("object 2", [](BundleTile& t, auto&) { t.object = 2; });  // again
+  refused("crop", [](BundleTile& t, auto&) { t.width_px = 1; });
+  refused("crop", [](BundleTile& t, auto&) { t.width_px = -4, t.height_px = -3; });
+  refused("crop", [](BundleTile& t, auto&) { t.height_px = 1 << 16; });
+  refused("crop", [](BundleTile& t, auto&) { t.x = 1 << 21; });
+  refused("crop", [](BundleTile& t, auto&) { t.y = -(1 << 21); });
+  refused("picture", [](BundleTile& t, auto&) { t.source_px = 0; });
+  refused("picture", [](BundleTile& t, auto&) { t.source_px = -256; });
+  refused("texels", [](BundleTile& t, auto&) { t.height_px = 4; });
+  refused("follow", [](BundleTile& t, auto&) { t.first_texel = 11; });
+  refused("follow", [](BundleTile& t, auto&) { t.first_texel = 13; });
+  refused("follow", [](BundleTile& t, auto&) { t.first_texel = ~std::uint64_t{0} - 3; });
+  for (const double bad : {kNaN, kInfinity, -kInfinity, 1e5}) {
+    refused("not seen from the centre", [&](BundleTile& t, auto&) { t.eye[1] = bad; });
+    refused("axes", [&](BundleTile& t, auto&) { t.right[0] = bad; });
+    refused("axes", [&](BundleTile& t, auto&) { t.up[2] = bad; });
+    refused("axes", [&](BundleTile& t, auto&) { t.forward[0] = bad; });
+  }
+  refused("axes", [](BundleTile& t, auto&) { t.right[1] = 1; });  // a mirror
+  refused("axes", [](BundleTile& t, auto&) { t.up[2] = 0; });
+  refused("axes", [](BundleTile& t, auto&) { t.right[0] = 0.01; });
+  for (const double bad : {kNaN, kInfinity, 0.0, -221.7, 1e10})
+    refused("focal", [&](BundleTile& t, auto&) { t.focal_px = bad; });
+  for (const double bad : {kNaN, kInfinity, -1.0})
+    refused("depth code", [&](BundleTile& t, auto&) { t.code_scale = bad; });
+  for (const double bad : {kNaN, -kInfinity, 1.0})
+    refused("depth code", [&](BundleTile& t, auto&) { t.code_bias = bad; });
+  refused("texels", [](BundleTile&, CentreTextures& t) { t.texels.pop_back(); });
+  refused("texels", [](BundleTile&, CentreTextures& t) { t.texels.push_back({}); });
+}
+
+// Files that are whole in themselves, but not what stands for them in this bundle.
+TEST(Bundle, ExchangedFilesAreFound) {
+  const BundleCopy copy;
+  const Bundle bundle(copy.path());
+  const auto exchanged = [&](const std::string& name, const fs::path& other, auto id,
+                             const char* message) {
+    const std::string before = read_file(copy.file(name));
+    fs::remove(copy.file(name));
+    fs::copy(other, copy.file(name));
+    if constexpr (std::is_same_v<decltype(id), CellId>)
+      EXPECT_INPUT_ERROR(bundle.read_cell(id), message)
+    else
+      EXPECT_INPUT_ERROR(bundle.read_centre(id), message)
+    put_bytes(copy.file(name), before);
+  };
+  const CellId cell{1};
+  exchanged(cell_name(cell), copy.file(cell_name(CellId(0))), cell, "is of cell 0, not 1");
+  exchanged(cell_name(cell), copy.file(centre_name(kCentre)), cell, "is not geometry of a cell");
+  exchanged(centre_name(kCentre), copy.file(centre_name(CentreId(6))), kCentre,
+            "is of centre 6, not 5");
+  exchanged(centre_name(kCentre), copy.file(cell_name(cell)), kCentre,
+            "is not textures of a centre");
+  // Of another bake of the same scene.
+  const TemporaryFolder folder;
+  shared_bake().pack(folder / "few", shared_bake().inputs, {cell, CellId(2)});
+  const BundleCopy few(folder / "few");
+  exchanged(cell_name(cell), few.file(cell_name(cell)), cell, "is of another bake");
+  // Of this bake by what it says, but not what was packed.
+  CellGeometry geometry = bundle.read_cell(cell);
+  ++geometry.offsets.at(0);
+  write_cell_geometry(folder / "forged", cell, copy.key(), geometry);
+  exchanged(cell_name(cell), folder / "forged", cell, "is not the file that was packed");
+  CentreTextures textures = bundle.read_centre(kCentre);
+  textures.texels.at(0)[1] ^= 1;
+  write_centre_textures(folder / "forged", kCentre, copy.key(), textures, TextureFormat::rgba8);
+  exchanged(centre_name(kCentre), folder / "forged", kCentre, "is not the file that was packed");
+  EXPECT_NO_THROW(bundle.read_cell(cell));
+  EXPECT_NO_THROW(bundle.read_centre(kCentre));
 }
 
 TEST(Bundle, DamagedFilesAreRefusedOrSound) {
   const BundleCopy copy;
-  const Bundle bundle(copy.path);
-  write_cell_geometry(cell_file(copy.path, CellId(3)), make_geometry());
-  write_centre_textures(centre_file(copy.path, CentreId(4)), make_textures(), {});
-  const std::string cell = read_file(cell_file(copy.path, CellId(3)));
-  const std::string centre = read_file(centre_file(copy.path, CentreId(4)));
-  read_damaged_copies(cell, 1000, 1, [&](const std::string& bytes) {
-    fs::remove(cell_file(copy.path, CellId(3)));  // some file systems flush one that is rewritten
-    std::ofstream(cell_file(copy.path, CellId(3)), std::ios::binary) << bytes;
-    expect_same(bundle.read_cell(CellId(3)), make_geometry());  // or a refusal: sections are hashed
+  copy.write(chosen_cell(), make_geometry());
+  copy.write(kCentre, make_textures());
+  const Bundle bundle(copy.path());
+  const fs::path cell = copy.file(cell_name(chosen_cell()));
+  const fs::path centre = copy.file(centre_name(kCentre));
+  read_damaged_copies(read_file(cell), 1000, 1, [&](const std::string& bytes) {
+    fs::remove(cell);  // some file systems flush one that is rewritten
+    put_bytes(cell, bytes);
+    expect_same(bundle.read_cell(chosen_cell()), make_geometry());  // or a refusal
   });
-  read_damaged_copies(centre, 1000, 2, [&](const std::string& bytes) {
-    fs::remove(centre_file(copy.path, CentreId(4)));
-    std::ofstream(centre_file(copy.path, CentreId(4)), std::ios::binary) << bytes;
-    EXPECT_EQ(bundle.read_centre(CentreId(4)).texels, make_textures().texels);
+  read_damaged_copies(read_file(centre), 1000, 2, [&](const std::string& bytes) {
+    fs::remove(centre);
+    put_bytes(centre, bytes);
+    EXPECT_EQ(bundle.read_centre(kCentre).texels, make_textures().texels);
   });
 }
 
@@ -248,45 +349,106 @@ TEST(Bundle, OneDepthAloneIsEncodedWithoutDividing) {
 }
 
 TEST(Bundle, OpensOnlyWhatIsWhole) {
-  for (const char* part : {"bundle.json", "scene.json", "cells.json", "torus.ply"}) {
+  for (const char* part : {"scene.json", "cells.json", "torus.ply"}) {
     const BundleCopy copy;
-    EXPECT_EQ(Bundle(copy.path).manifest().cells.size(), shared_bake().list.size());
-    fs::remove(copy.path / part);
-    EXPECT_INPUT_ERROR(Bundle{copy.path}, part);
+    EXPECT_EQ(Bundle(copy.path()).manifest().cells.size(), shared_bake().list.size());
+    fs::remove(copy.file(part));
+    EXPECT_INPUT_ERROR(Bundle{copy.path()}, part);
   }
   EXPECT_INPUT_ERROR(Bundle{"/nonexistent/bundle"}, "bundle.json");
   const BundleCopy copy;
-  const Bundle bundle(copy.path);
-  fs::remove(cell_file(copy.path, CellId(1)));
+  const Bundle bundle(copy.path());
+  fs::remove(copy.file(cell_name(CellId(1))));
   EXPECT_INPUT_ERROR(bundle.read_cell(CellId(1)), "cell-00001.geo");
+  fs::remove(copy.path() / kManifestName);
+  EXPECT_INPUT_ERROR(Bundle{copy.path()}, "bundle.json");
 }
 
-TEST(Bundle, RefusesAnotherScenesParts) {
+// The file at fault is named, though its bytes may be as good as those that were packed.
+TEST(Bundle, SceneMeshesAndCellsMustBeThosePacked) {
+  const auto refused = [](const char* part, const std::string& from, const std::string& to) {
+    const BundleCopy copy;
+    const std::string bytes = read_file(copy.file(part));
+    put_bytes(copy.file(part), replaced(bytes, from, to));
+    EXPECT_INPUT_ERROR(Bundle{copy.path()}, part);
+  };
+  refused("scene.json", "\"scale\": 0.4", "\"scale\": 0.5");
+  refused("scene.json", "\"name\": \"object 1\"", "\"name\": \"object 7\"");
+  refused("cells.json", "\"near\": 1.0", "\"near\": 1.5");
+  refused("cells.json", "\"id\": 0", "\"id\":  0");
+  refused("torus.ply", "element face", "element  face");
+}
+
+TEST(Bundle, EveryLineOfTheManifestIsHeld) {
   const BundleCopy copy;
-  const std::string manifest = read_file(copy.path / "bundle.json");
-  const auto write = [&](const char* key, const Json& value) {
+  const std::string manifest = read_file(copy.path() / "bundle.json");
+  const auto refused = [&](const char* key, const Json& value, const char* message) {
     Json json = Json::parse(manifest);
     json[key] = value;
-    write_file(copy.path / "bundle.json", json.dump());
+    put_bytes(copy.path() / "bundle.json", json.dump());
+    EXPECT_INPUT_ERROR(Bundle{copy.path()}, "bundle.json");
+    EXPECT_INPUT_ERROR(Bundle{copy.path()}, message);
   };
-  const auto refused = [&](const char* key, const Json& value) {
-    write(key, value);
-    EXPECT_INPUT_ERROR(Bundle{copy.path}, key);
-  };
-  refused("scene_hash", "0123456789abcdef");
-  refused("cells", Json::array());
-  refused("cells", {0, 1000});
-  refused("cells", {-1});
-  refused("cells", {3, 2});
-  refused("cells", {2, 2});
-  refused("centres", {100000});
-  refused("resolution_px", 0);
-  refused("texture_format", "png");
-  write_file(copy.path / "bundle.json", manifest);
-  Scene other = make_bake_scene();
-  other.objects[0].translation.x += 1;
-  write_scene(other, copy.path);
-  EXPECT_INPUT_ERROR(Bundle{copy.path}, "scene");
+  const std::string other = "0123456789abcdef";
+  refused("version", 1,
+          "version 1, this tool reads version 2: pack the bundle again with cellpack");
+  for (const char* key : {"scene_hash", "cells_hash", "captures", "meshes", "key"}) {
+    refused(key, other, "key");
+    refused(key, "0123", key);
+    refused(key, "../../../../../x", key);
+    refused(key, 7, key);
+  }
+  refused("made_by", {{"tool", "other"}}, "key");
+  refused("cells", Json::array(), "cells: is empty");
+  refused("cells", {-1}, "cells[0]");
+  refused("cells", {3, 2}, "cells[1]");
+  refused("cells", {2, 2}, "cells[1]");
+  refused("cells", {0, 1}, "key");
+  refused("centres", Json::array(), "key");  // other pictures, without a word, if it were read
+  refused("centres", {1, 0}, "centres[1]");
+  refused("resolution_px", 0, "resolution_px");
+  refused("resolution_px", 64, "key");
+  refused("texture_format", "png", "texture_format");
+  refused("texture_format", "bc3", "key");
+  refused("files", Json::array(), "files");
+  refused("files", {{"torus.ply", other}}, "files: has no \"cells/cell-00000.geo\"");
+  Json files = Json::parse(manifest)["files"];
+  files["cells/cell-00001.geo"] = "no hash";
+  refused("files", files, "files.cells/cell-00001.geo");
+  put_bytes(copy.path() / "bundle.json", Json::parse(manifest).dump());  // other blanks
+  EXPECT_NO_THROW(Bundle{copy.path()});
+}
+
+// A key that fits, of a grid that does not.
+TEST(Bundle, CellsAndCentresMustBeOfTheGrid) {
+  for (const bool is_cell : {true, false}) {
+    const BundleCopy copy;
+    BundleManifest manifest = Bundle(copy.path()).manifest();
+    const std::string old_key = copy.key();
+    if (is_cell)
+      manifest.cells.push_back(CellId(1000));
+    else
+      manifest.centres.push_back(CentreId(1000));
+    manifest.files[cell_name(CellId(1000))] = manifest.files[centre_name(CentreId(1000))] =
+        "0123456789abcdef";
+    fs::rename(bake_folder(copy.path(), old_key), bake_folder(copy.path(), bake_key(manifest)));
+    put_bytes(copy.path() / kManifestName, format_json(format_manifest(manifest)));
+    EXPECT_INPUT_ERROR(Bundle{copy.path()}, "1000 is not within the grid's");
+  }
+}
+
+TEST(Bundle, NamedPipesAreRefusedAtOnce) {
+  const BundleCopy copy;
+  const Bundle bundle(copy.path());
+  for (const std::string& name : {cell_name(CellId(1)), centre_name(kCentre)}) {
+    fs::remove(copy.file(name));
+    ASSERT_EQ(::mkfifo(copy.file(name).c_str(), 0600), 0);
+  }
+  EXPECT_INPUT_ERROR(bundle.read_cell(CellId(1)), "is a pipe");
+  EXPECT_INPUT_ERROR(bundle.read_centre(kCentre), "is a pipe");
+  fs::remove(copy.path() / kManifestName);
+  ASSERT_EQ(::mkfifo((copy.path() / kManifestName).c_str(), 0600), 0);
+  EXPECT_INPUT_ERROR(Bundle{copy.path()}, "bundle.json: is a pipe");
 }
 
 }  // namespace

@@ -1,0 +1,135 @@
+#include "bundle/bundle_writer.h"
+
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cctype>
+
+#include "base/error.h"
+#include "base/file.h"
+
+namespace viewcell {
+namespace fs = std::filesystem;
+namespace {
+
+// The manifest that is there, if it can be read: it decides what may be removed, nothing else.
+Json read_old_manifest(const fs::path& file) {
+  std::error_code ignored;  // a folder without one is new
+  if (!fs::is_regular_file(file, ignored)) return Json::object();
+  try {
+    Json json = parse_json(read_file(file, 1u << 30), file);
+    return json.is_object() ? json : Json::object();
+  } catch (const InputError&) {
+    return Json::object();
+  }
+}
+
+bool is_bake_name(const std::string& name) {
+  return name.size() == 21 && name.starts_with("bake-") &&
+         std::all_of(name.begin() + 5, name.end(),
+                     [](unsigned char c) { return std::isxdigit(c); });
+}
+
+void remove_bakes_but(const fs::path& folder, const std::vector<fs::path>& kept) {
+  std::error_code error;
+  std::vector<fs::path> old;
+  for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error))
+    if (is_bake_name(at->path().filename().string()) &&
+        std::find(kept.begin(), kept.end(), at->path()) == kept.end())
+      old.push_back(at->path());
+  for (const fs::path& bake : old) remove_unheld(bake);
+}
+
+bool has_name(const fs::path& file, std::string_view start, std::string_view end) {
+  const std::string name = file.filename().string();
+  return name.starts_with(start) && name.ends_with(end);
+}
+
+// Bundles of version 1 kept their files beside the manifest.
+void remove_version_1(const fs::path& folder) {
+  std::vector<fs::path> files = {folder / "cells.json", folder / "scene.json"};
+  std::error_code error;
+  for (const auto& [part, start, end] :
+       {std::tuple("cells", "cell-", ".geo"), std::tuple("centres", "centre-", ".tex")})
+    for (fs::directory_iterator at(folder / part, error), last; !error && at != last;
+         at.increment(error))
+      if (has_name(at->path(), start, end)) files.push_back(at->path());
+  try {
+    for (const SceneMesh& mesh : read_scene(folder / "scene.json", {.with_meshes = false}).meshes)
+      files.push_back(folder / mesh.file);
+  } catch (const InputError&) {  // then its meshes stay
+  }
+  for (const fs::path& file : files) fs::remove(file, error);
+  for (const char* part : {"cells", "centres", "meshes"})
+    ::rmdir((folder / part).c_str());  // what is not empty stays
+}
+
+// Makes the folder where it is not there; only the last part of its path goes again.
+const fs::path& made(const fs::path& folder, Temporary& is_new) {
+  std::error_code ignored;  // make_folder says what is wrong
+  if (!fs::exists(folder, ignored)) {
+    const fs::path leaf = folder.has_filename() ? folder : folder.parent_path();  // "bundle/"
+    if (leaf.has_parent_path()) make_folder(leaf.parent_path());
+    is_new.make(leaf, [&] { return ::mkdir(leaf.c_str(), 0777) == 0; });
+  }
+  make_folder(folder);
+  return folder;
+}
+
+}  // namespace
+
+BundleWriter::BundleWriter(const fs::path& folder, BundleManifest manifest)
+    : folder_(folder),
+      lock_(made(folder, new_folder_), "cellpack", std::to_string(::getpid())),
+      manifest_(std::move(manifest)),
+      key_(bake_key(manifest_)),
+      bake_(bake_folder(folder, key_)) {
+  const Json old = read_old_manifest(folder / kManifestName);
+  std::vector<fs::path> kept = {bake_};
+  if (old.contains("key") && old["key"].is_string())
+    kept.push_back(bake_folder(folder, old["key"].get<std::string>()));
+  remove_bakes_but(folder, kept);
+  if (kept.size() < 2 || kept[1] != bake_) {
+    remove_unheld(bake_);
+    new_bake_.make(bake_, [&] { return ::mkdir(bake_.c_str(), 0777) == 0; });
+  }
+  for (const char* part : {"cells", "centres"}) make_folder(bake_ / part);
+}
+
+void BundleWriter::add_file(const std::string& name, const std::string& hash) {
+  const std::lock_guard lock(mutex_);
+  manifest_.files[name] = hash;
+}
+
+void BundleWriter::write(CellId cell, const CellGeometry& geometry) {
+  const std::string name = cell_name(cell);
+  add_file(name, write_cell_geometry(bake_ / name, cell, key_, geometry));
+}
+
+void BundleWriter::write(CentreId centre, const CentreTextures& textures) {
+  const std::string name = centre_name(centre);
+  add_file(name,
+           write_centre_textures(bake_ / name, centre, key_, textures, manifest_.texture_format));
+}
+
+void BundleWriter::write_copy(const std::string& name, std::string_view bytes,
+                              const std::string& hash) {
+  make_folder((bake_ / name).parent_path());
+  write_file(bake_ / name, bytes);
+  if (!hash.empty()) add_file(name, hash);
+}
+
+void BundleWriter::commit() {
+  const Json old = read_old_manifest(folder_ / kManifestName);
+  const bool was_version_1 = old.contains("version") && old["version"] == 1;
+  PendingFile manifest(folder_ / kManifestName, format_json(format_manifest(manifest_)));
+  manifest.commit([&] {
+    new_bake_.keep();
+    new_folder_.keep();
+  });
+  remove_bakes_but(folder_, {bake_});
+  if (was_version_1) remove_version_1(folder_);
+}
+
+}  // namespace viewcell
