@@ -1,5 +1,7 @@
 #include "play/loader.h"
 
+#include "base/error.h"
+
 namespace viewcell {
 namespace {
 
@@ -48,11 +50,15 @@ std::vector<Rgba8> Loader::take_spare() {
 
 Loaded Loader::read(const LoadKey& key) {
   Loaded out{key, nullptr, {}};
-  if (const auto* cell = std::get_if<CellId>(&key))
-    out.cell = std::make_shared<ReadyCell>(
-        make_ready_cell(bundle_.scene(), bundle_.cells(), *cell, bundle_.read_cell(*cell)));
-  else
-    out.textures = bundle_.read_centre(std::get<CentreId>(key), take_spare());
+  try {
+    if (const auto* cell = std::get_if<CellId>(&key))
+      out.cell = std::make_shared<ReadyCell>(
+          make_ready_cell(bundle_.scene(), bundle_.cells(), *cell, bundle_.read_cell(*cell)));
+    else
+      out.textures = bundle_.read_centre(std::get<CentreId>(key), take_spare());
+  } catch (const InputError& error) {
+    out.fault = error.what();
+  }
   return out;
 }
 

@@ -7,6 +7,7 @@
 #include <memory>
 #include <mutex>
 #include <set>
+#include <string>
 #include <thread>
 #include <variant>
 #include <vector>
@@ -20,8 +21,9 @@ using LoadKey = std::variant<CellId, CentreId>;
 
 struct Loaded {
   LoadKey key;
-  std::shared_ptr<const ReadyCell> cell;  ///< of a CellId
-  CentreTextures textures;                ///< of a CentreId
+  std::shared_ptr<const ReadyCell> cell;  ///< of a CellId; null: see fault
+  CentreTextures textures;                ///< of a CentreId; none: see fault
+  std::string fault = {};                 ///< why the file could not be read; empty: it could
 };
 
 /// Reads what it is asked for, in the order asked. Makes no GL calls. All functions are called from
@@ -36,7 +38,8 @@ class Loader {
 
   /// Replaces what is still waiting by these, most urgent first. What is being read goes on.
   void request(const std::vector<LoadKey>& keys);
-  /// What has been read since the last call, first read first. Rethrows what reading threw.
+  /// What has been read since the last call, first read first. A file at fault (InputError) is a
+  /// Loaded that says so; anything else that reading threw is rethrown.
   std::vector<Loaded> collect();
   /// Reads one at once, on the calling thread.
   Loaded read(const LoadKey& key);

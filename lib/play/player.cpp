@@ -29,8 +29,8 @@ DrawnFrame Player::draw_plan(const FramePlan& plan, const glm::dmat4& clip,
   return {0, plan.n_triangles, plan.draws.size(), 0};
 }
 
-DrawnFrame Player::draw_hybrid(const Camera& camera, HybridStyle style) {
-  const ResidentCell& cell = residency_.enter(camera);
+DrawnFrame Player::draw_resident(const Camera& camera, const ResidentCell& cell,
+                                 HybridStyle style) {
   const HybridPlan plan =
       plan_hybrid(plan_scene_, bundle_.cells(), *cell.ready, cell.views, camera);
   scene_renderer_.draw_background(target_, clip_from_world(camera));
@@ -38,10 +38,29 @@ DrawnFrame Player::draw_hybrid(const Camera& camera, HybridStyle style) {
   if (style != HybridStyle::textured) inside_style.base_color = kind_color(Representation::inside);
   const std::size_t n_inside = scene_renderer_.draw_clusters(camera, plan.inside, inside_style);
   hybrid_renderer_.draw(camera, cell, residency_.texel_texture(), plan, style);
+  return {0, n_inside + plan.n_triangles, plan.inside.size() + plan.outside.size(),
+          residency_.texture_bytes(), cell.stand_in};
+}
+
+DrawnFrame Player::draw_stand_in(const Camera& camera, StandIn why, HybridStyle style) {
+  DrawStyle look;
+  if (style != HybridStyle::textured) look.base_color = kind_color(Representation::inside);
+  DrawnFrame frame =
+      draw_plan(plan_lod(plan_scene_, camera, options_.height_px), clip_from_world(camera), look);
+  frame.texture_bytes = residency_.texture_bytes();
+  frame.stand_in = why;
+  return frame;
+}
+
+DrawnFrame Player::draw_hybrid(const Camera& camera, HybridStyle style) {
+  StandIn why = find_off_bake(bundle_, camera);
+  const ResidentCell* cell = why == StandIn::none ? &residency_.enter(camera) : nullptr;
+  if (cell != nullptr && !cell->ready) why = cell->stand_in;
+  const DrawnFrame frame = why == StandIn::none ? draw_resident(camera, *cell, style)
+                                                : draw_stand_in(camera, why, style);
   hybrid_camera_ = camera;
-  n_hybrid_triangles_ = n_inside + plan.n_triangles;
-  return {0, n_hybrid_triangles_, plan.inside.size() + plan.outside.size(),
-          residency_.texture_bytes()};
+  n_hybrid_triangles_ = frame.n_triangles;
+  return frame;
 }
 
 std::size_t Player::count_hybrid(const Camera& camera) {

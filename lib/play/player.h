@@ -29,7 +29,8 @@ struct DrawnFrame {
   double ms = 0;
   std::size_t n_triangles = 0;
   std::size_t n_draws = 0;
-  std::size_t texture_bytes = 0;  ///< resident
+  std::size_t texture_bytes = 0;     ///< resident
+  StandIn stand_in = StandIn::none;  ///< of mode hybrid
 };
 
 class Player {
@@ -56,6 +57,8 @@ class Player {
   DrawnFrame draw_plan(const FramePlan& plan, const glm::dmat4& clip, const DrawStyle& style = {});
   std::size_t count_hybrid(const Camera& camera);
   DrawnFrame draw_hybrid(const Camera& camera, HybridStyle style);
+  DrawnFrame draw_resident(const Camera& camera, const ResidentCell& cell, HybridStyle style);
+  DrawnFrame draw_stand_in(const Camera& camera, StandIn why, HybridStyle style);
 
   const Bundle& bundle_;
   PlayerOptions options_;

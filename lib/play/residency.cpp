@@ -101,24 +101,38 @@ const ResidentCell& Residency::enter(const Camera& camera) {
 }
 
 void Residency::take(Loaded loaded) {
-  if (const auto* cell = std::get_if<CellId>(&loaded.key)) {
-    if (!cells_.contains(*cell))
-      cells_.emplace(*cell, Cell{upload_cell(gl_, std::move(loaded.cell)), frame_});
-  } else {
-    add_centre(std::get<CentreId>(loaded.key), std::move(loaded.textures));
-  }
+  if (const auto* cell = std::get_if<CellId>(&loaded.key))
+    add_cell(*cell, std::move(loaded));
+  else
+    add_centre(std::get<CentreId>(loaded.key), std::move(loaded));
 }
 
-void Residency::add_centre(CentreId id, CentreTextures textures) {
+void Residency::add_cell(CellId id, Loaded loaded) {
+  if (cells_.contains(id)) return;
+  Cell cell{{}, frame_, std::move(loaded.fault)};
+  if (loaded.cell) cell.resident = upload_cell(gl_, std::move(loaded.cell));
+  cells_.emplace(id, std::move(cell));
+}
+
+void Residency::add_centre(CentreId id, Loaded loaded) {
   if (centres_.contains(id)) return;
-  const auto n = static_cast<std::uint32_t>(textures.texels.size());
-  auto first = pool_.allocate(n);
-  while (!first && evict_a_centre()) first = pool_.allocate(n);
-  if (!first)
-    throw MachineError("textures of one cell need more than the pool's " +
-                       std::to_string(pool_.n_texels() / (1 << 18)) + " MB");
-  centres_.emplace(id, Centre{*first, 0, std::move(textures), frame_});
-  queue_.push_back(id);
+  Centre centre{{}, 0, std::move(loaded.textures), frame_, std::move(loaded.fault)};
+  const auto n = static_cast<std::uint32_t>(centre.textures.texels.size());
+  if (n > 0) {
+    centre.first = pool_.allocate(n);
+    while (!centre.first && evict_a_centre()) centre.first = pool_.allocate(n);
+    if (!centre.first)
+      throw MachineError("textures of one cell need more than the pool's " +
+                         std::to_string(pool_.n_texels() / (1 << 18)) + " MB");
+    queue_.push_back(id);
+  }
+  centres_.emplace(id, std::move(centre));
+}
+
+void Residency::note_fault(const std::string& what, StandIn stand_in) {
+  const auto is_it = [&](const BundleFault& fault) { return fault.what == what; };
+  if (!what.empty() && std::none_of(faults_.begin(), faults_.end(), is_it))
+    faults_.push_back({what, stand_in});
 }
 
 std::uint32_t Residency::upload_some(Centre& centre, std::uint32_t most) {
@@ -126,7 +140,7 @@ std::uint32_t Residency::upload_some(Centre& centre, std::uint32_t most) {
   const std::vector<Rgba8>& texels = centre.textures.texels;
   const std::uint32_t n =
       std::min(most, static_cast<std::uint32_t>(texels.size()) - centre.n_written);
-  pool_.write(centre.first + centre.n_written, texels.data() + centre.n_written, n);
+  pool_.write(*centre.first + centre.n_written, texels.data() + centre.n_written, n);
   centre.n_written += n;
   if (centre.n_written == texels.size()) loader_.recycle(std::exchange(centre.textures.texels, {}));
   return n;
@@ -149,14 +163,21 @@ void Residency::bring(CellId cell) {
     take(loader_.read(key));
   };
   if (!cells_.contains(cell)) read(cell);
+  Cell& entered = cells_.at(cell);
+  ResidentCell& resident = entered.resident;
+  resident.stand_in = resident.ready ? StandIn::none : StandIn::damaged_cell;
+  note_fault(entered.fault, StandIn::damaged_cell);
   for (const CentreId id : centres_needed(cell)) {
+    if (!resident.ready) break;  // nothing would show them
     if (!centres_.contains(id)) read(id);
     Centre& centre = centres_.at(id);
     centre.used_at = frame_;
     upload_some(centre, ~0u);
+    note_fault(centre.fault, StandIn::damaged_textures);
+    if (!centre.fault.empty()) resident.stand_in = StandIn::damaged_textures;
   }
   n_stalls_ += stalled;
-  project_views(cell, cells_.at(cell).resident);
+  if (resident.ready) project_views(cell, resident);
 }
 
 void Residency::project_views(CellId id, ResidentCell& cell) const {
@@ -176,7 +197,7 @@ void Residency::project_views(CellId id, ResidentCell& cell) const {
       const auto at = static_cast<std::size_t>(slot);
       cell.views[at] |= static_cast<std::uint8_t>(1u << k);
       cell.projections[at * kViews + k] =
-          make_projection(tile, cell.ready->origin, centre->second.first);
+          make_projection(tile, cell.ready->origin, *centre->second.first);
     }
   }
 }
@@ -221,7 +242,7 @@ bool Residency::evict_a_centre() {
         (oldest == centres_.end() || it->second.used_at < oldest->second.used_at))
       oldest = it;
   if (oldest == centres_.end()) return false;
-  pool_.release(oldest->second.first);
+  if (oldest->second.first) pool_.release(*oldest->second.first);
   centres_.erase(oldest);
   return true;
 }

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <map>
+#include <optional>
 
 #include "play/hybrid_plan.h"
 #include "play/loader.h"
+#include "play/stand_in.h"
 #include "play/texel_pool.h"
 
 namespace viewcell {
@@ -27,7 +29,8 @@ struct ViewProjection {
 };
 
 struct ResidentCell {
-  std::shared_ptr<const ReadyCell> ready;
+  std::shared_ptr<const ReadyCell> ready;  ///< null: damaged_cell
+  StandIn stand_in = StandIn::none;        ///< or damaged_cell, or damaged_textures
   GlBuffer vertices, indices;
   GlVertexArray array;
   ViewsAvailable views;                     ///< by slot
@@ -47,26 +50,32 @@ class Residency {
 
   std::size_t texture_bytes() const { return 4 * std::size_t{pool_.n_used()}; }
   GLuint texel_texture() const { return pool_.texture(); }
+  /// Files of the cells entered that could not be read, in the order met, each once.
+  const std::vector<BundleFault>& faults() const { return faults_; }
   /// Cells that had to be waited for, the first included.
   std::size_t n_stalls() const { return n_stalls_; }
 
  private:
   struct Centre {
-    std::uint32_t first = 0;
+    std::optional<std::uint32_t> first;  // nothing: it has no texels
     std::uint32_t n_written = 0;
     CentreTextures textures;  // its texels: until all are written
     std::size_t used_at = 0;  // frame
+    std::string fault = {};   // why it could not be read
     bool is_whole() const { return textures.texels.empty(); }
   };
   struct Cell {
     ResidentCell resident;
     std::size_t used_at = 0;
+    std::string fault = {};
   };
 
   CellId cell_of(const Camera& camera) const;
   std::vector<CentreId> centres_needed(CellId cell) const;
   void take(Loaded loaded);
-  void add_centre(CentreId id, CentreTextures textures);
+  void add_cell(CellId id, Loaded loaded);
+  void add_centre(CentreId id, Loaded loaded);
+  void note_fault(const std::string& what, StandIn stand_in);
   std::uint32_t upload_some(Centre& centre, std::uint32_t most);
   void upload_ahead();
   void bring(CellId cell);
@@ -86,6 +95,7 @@ class Residency {
   CellId current_{-1};
   std::size_t frame_ = 0;
   std::size_t n_stalls_ = 0;
+  std::vector<BundleFault> faults_;
   glm::dvec3 asked_eye_{1e30}, asked_forward_{0};
   Loader loader_;
 };

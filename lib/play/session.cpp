@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <span>
 
+#include "base/error.h"
 #include "base/file.h"
 #include "base/parallel.h"
 #include "image/io.h"
@@ -49,16 +50,24 @@ void time_frames(Player& player, const std::vector<Camera>& cameras, const Sessi
       for (const Camera& camera : turn) {
         const DrawnFrame drawn = player.draw(options.modes[m], camera);
         timeline.modes[m].frames.push_back(
-            {drawn.ms, drawn.n_triangles, drawn.n_draws, drawn.texture_bytes, {}});
+            {drawn.ms, drawn.n_triangles, drawn.n_draws, drawn.texture_bytes, {}, drawn.stand_in});
       }
     for (std::size_t i = 0; i < n; ++i) timeline.floor_ms.push_back(time_floor(player));
     for (std::size_t i = 0; i < n; ++i) pass.step();
   }
 }
 
+bool is_saved(const SessionOptions& options, std::size_t frame) {
+  return !options.save.empty() && frame % options.save_every == 0;
+}
+
+bool is_compared(const SessionOptions& options, std::size_t frame) {
+  return options.with_quality && frame % options.quality_every == 0;
+}
+
 void save_frame(const SessionOptions& options, Mode mode, std::size_t frame,
                 const ImageRgba8& picture) {
-  if (options.save.empty() || frame % options.save_every != 0) return;
+  if (!is_saved(options, frame)) return;
   char name[32];
   std::snprintf(name, sizeof name, "frame-%05zu.png", frame);
   const std::filesystem::path folder = options.save / mode_name(mode);
@@ -84,6 +93,11 @@ class Comparer {
       timeline_.modes[m].frames[i].quality = measure_quality(reference, picture);
       save_frame(options_, mode, i, picture);
     }
+  }
+
+  // Of a frame that is not compared.
+  void save(std::size_t i, const Camera& camera) {
+    for (const Mode mode : options_.modes) save_frame(options_, mode, i, draw(mode, camera));
   }
 
   SheetRow make_row(std::size_t i, const Camera& camera) {
@@ -131,6 +145,26 @@ std::vector<std::size_t> choose_sheet_frames(const ModeTimeline& hybrid, std::si
   return chosen;
 }
 
+bool draws_hybrid(Mode mode) {
+  return row_of(mode).engine == ModeEngine::hybrid || row_of(mode).asks_hybrid;
+}
+
+// A hybrid of no frame is a path that is not the bundle's.
+void check_path_meets_bundle(const Bundle& bundle, const std::vector<Camera>& cameras,
+                             const SessionOptions& options) {
+  const auto& modes = options.modes;
+  if (!draws_hybrid(options.reference) && std::none_of(modes.begin(), modes.end(), draws_hybrid))
+    return;
+  for (const Camera& camera : cameras)
+    if (find_off_bake(bundle, camera) != StandIn::off_cells) return;
+  const HexGrid& grid = bundle.cells().grid;
+  const auto cell = cell_at(grid, coord_at(grid, glm::dvec2(cameras[0].eye)));
+  throw InputError("path", "",
+                   "no eye is in a cell that the bundle holds; the first " +
+                       (cell ? "is in cell " + std::to_string(static_cast<int>(*cell))
+                             : std::string("leaves the grid of cells")));
+}
+
 Timeline start_timeline(const Player& player, const Bundle& bundle, const CameraPath& path,
                         const std::vector<Camera>& cameras, const SessionOptions& options) {
   Timeline timeline;
@@ -161,17 +195,22 @@ Timeline start_timeline(const Player& player, const Bundle& bundle, const Camera
 Session run_session(Player& player, const Bundle& bundle, const CameraPath& path,
                     const SessionOptions& options, const Progress& progress) {
   const std::vector<Camera> cameras = sample_path(path, options.n_frames);
+  check_path_meets_bundle(bundle, cameras, options);
   Session session;
   session.timeline = start_timeline(player, bundle, path, cameras, options);
   time_frames(player, cameras, options, session.timeline, Pass(progress, cameras.size(), 0));
-  if (!options.with_quality) return session;
+  session.timeline.faults = player.residency().faults();
 
   Comparer comparer(player, options, session.timeline);
   Pass pass(progress, cameras.size(), cameras.size());
   for (std::size_t i = 0; i < cameras.size(); ++i) {
-    if (i % options.quality_every == 0) comparer.compare(i, cameras[i]);
+    if (is_compared(options, i))
+      comparer.compare(i, cameras[i]);
+    else if (is_saved(options, i))
+      comparer.save(i, cameras[i]);
     pass.step();
   }
+  if (!options.with_quality) return session;
   const auto& modes = session.timeline.modes;
   const auto hybrid = std::find_if(modes.begin(), modes.end(), [](const ModeTimeline& mode) {
     return mode.mode == Mode::hybrid;

@@ -31,7 +31,8 @@ struct Session {
 };
 
 /// First every frame is drawn in every mode, timed, the modes taking turns, from a bundle of which
-/// one cell is loaded; then the frames are drawn again to be read back, compared and saved.
+/// one cell is loaded; then the frames are drawn again to be read back, compared and saved. Throws
+/// InputError when a mode draws the hybrid and no eye is in a cell that the bundle holds.
 Session run_session(Player& player, const Bundle& bundle, const CameraPath& path,
                     const SessionOptions& options, const Progress& progress = {});
 

@@ -120,15 +120,31 @@ Json frame_to_json(const Timeline& timeline, std::size_t i) {
                {"modes", Json::object()}};
   for (const ModeTimeline& mode : timeline.modes) {
     const FrameRecord& frame = mode.frames[i];
-    json["modes"][mode_name(mode.mode)] = {
-        {"ms", frame.ms},
-        {"triangles", frame.n_triangles},
-        {"draws", frame.n_draws},
-        {"texture_bytes", frame.texture_bytes},
-        {"psnr_db", number_or_null(frame.quality.psnr_db)},
-        {"psnr_covered_db", number_or_null(frame.quality.psnr_covered_db)},
-        {"missing_px", frame.quality.missing_px}};
+    Json& record = json["modes"][mode_name(mode.mode)];
+    record = {{"ms", frame.ms},
+              {"triangles", frame.n_triangles},
+              {"draws", frame.n_draws},
+              {"texture_bytes", frame.texture_bytes},
+              {"psnr_db", number_or_null(frame.quality.psnr_db)},
+              {"psnr_covered_db", number_or_null(frame.quality.psnr_covered_db)},
+              {"missing_px", frame.quality.missing_px}};
+    if (frame.stand_in != StandIn::none) record["stand_in"] = stand_in_name(frame.stand_in);
   }
+  return json;
+}
+
+std::size_t count_all_stand_ins(const Timeline& timeline) {
+  std::size_t n = 0;
+  for (const StandIn stand_in : stand_ins()) n += count_stand_ins(timeline, stand_in);
+  return n;
+}
+
+Json stand_ins_to_json(const Timeline& timeline) {
+  Json json = {{"frames", count_all_stand_ins(timeline)}};
+  for (const StandIn stand_in : stand_ins())
+    json[stand_in_name(stand_in)] = count_stand_ins(timeline, stand_in);
+  json["faults"] = Json::array();
+  for (const BundleFault& fault : timeline.faults) json["faults"].push_back(fault.what);
   return json;
 }
 
@@ -235,6 +251,7 @@ Json make_statistics(const Timeline& timeline) {
           {"coverage_mean", number_or_null(frame_mean(timeline, &FrameInfo::coverage))},
           {"luminance_deviation_mean",
            number_or_null(frame_mean(timeline, &FrameInfo::luminance_deviation))},
+          {"stand_ins", stand_ins_to_json(timeline)},
           {"speedup", speedups(timeline)},
           {"floor_ms", floor_to_json(timeline)},
           {"per_frame", per_frame}};
@@ -255,6 +272,9 @@ std::string format_markdown(const Timeline& timeline) {
                     " raster threads, raycast on " + std::to_string(timeline.n_threads) +
                     ". Reference: " + mode_name(timeline.reference) + ".\n\n";
   out += format_markdown_table(make_rows(timeline));
+  if (const std::size_t n = count_all_stand_ins(timeline); n > 0)
+    out += "\nhybrid: " + std::to_string(n) +
+           " of these frames are not, or not wholly, of the bake.\n";
   std::string factors;
   const Json speedup = speedups(timeline);  // items() refers to it
   for (const auto& [name, factor] : speedup.items())

@@ -26,6 +26,14 @@ PictureQuality measure_quality(const ImageRgba8& reference, const ImageRgba8& te
   return {d.psnr_db, d.psnr_covered_db, d.mse, d.mse_covered, d.n_covered, missing};
 }
 
+std::size_t count_stand_ins(const Timeline& timeline, StandIn stand_in) {
+  std::size_t n = 0;
+  for (const ModeTimeline& mode : timeline.modes)
+    if (mode.mode == Mode::hybrid)
+      for (const FrameRecord& frame : mode.frames) n += frame.stand_in == stand_in;
+  return n;
+}
+
 double measure_coverage(const ImageRgba8& picture) {
   VIEWCELL_CHECK(!picture.empty());
   const auto n = std::count_if(picture.pixels.begin(), picture.pixels.end(), is_object);

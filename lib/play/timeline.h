@@ -8,6 +8,7 @@
 
 #include "image/image.h"
 #include "play/modes.h"
+#include "play/stand_in.h"
 
 namespace viewcell {
 
@@ -31,6 +32,7 @@ struct FrameRecord {
   std::size_t n_draws = 0;
   std::size_t texture_bytes = 0;
   PictureQuality quality;
+  StandIn stand_in = StandIn::none;  ///< of mode hybrid
 };
 
 /// What a frame is, whatever draws it.
@@ -57,8 +59,12 @@ struct Timeline {
   Mode reference = Mode::frustum;  ///< that the others are compared with
   std::vector<FrameInfo> frames;
   std::vector<ModeTimeline> modes;
+  std::vector<BundleFault> faults = {};  ///< of the bundle's files that were needed
   std::vector<double> floor_ms;  ///< of FloorQuad, interleaved with the frames; may be empty
 };
+
+/// Frames of mode hybrid, where it was played, with that stand-in.
+std::size_t count_stand_ins(const Timeline& timeline, StandIn stand_in);
 
 /// Share of pixels that show an object.
 double measure_coverage(const ImageRgba8& picture);

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "bake/small_bake.h"
+#include "bake/bundle_copy.h"
 #include "image/metrics.h"
 #include "play/player.h"
 
@@ -222,22 +222,20 @@ TEST(HybridFrame, StartLevelsCostATenthOfADecibelAtMost) {
 
 // Own centres' texels black, all others' white: a pixel's grey says how much of it each view made.
 TEST(HybridFrame, ViewsAreMixedByTheirWeights) {
-  const TemporaryFolder folder;
-  shared_bake().pack(folder.path() / "bundle");
+  const BundleCopy copy;
   const CellSet& cells = shared_bake().cells;
   const CellId cell = shared_bake().list.at(shared_bake().list.size() / 2);
   const auto centres = views_of(cells.grid, cell);
   {
-    const Bundle bundle(folder.path() / "bundle");
+    const Bundle bundle(copy.path());
     for (const CentreId centre : bundle.manifest().centres) {
       CentreTextures textures = bundle.read_centre(centre);
       const auto grey = static_cast<std::uint8_t>(centre == centres[0] ? 0 : 200);
       for (Rgba8& texel : textures.texels) texel = {grey, grey, grey, texel[3]};
-      write_centre_textures(centre_file(folder.path() / "bundle", centre), textures,
-                            TextureFormat::rgba8);
+      copy.write(centre, textures);
     }
   }
-  Stage stage(folder.path() / "bundle");
+  Stage stage(copy.path());
   const ReadyCell ready =
       make_ready_cell(stage.bundle.scene(), cells, cell, stage.bundle.read_cell(cell));
   std::array<glm::dvec3, kViews> eyes;

@@ -4,7 +4,7 @@
 
 #include <chrono>
 
-#include "bake/small_bake.h"
+#include "bake/bundle_copy.h"
 #include "common/expect_input_error.h"
 #include "draw/gl_fixture.h"
 
@@ -152,6 +152,51 @@ TEST(Loader, ReadsIntoWhatIsTakenBack) {
       EXPECT_EQ(loaded.textures.texels.data(), memory);
       loader.recycle(std::move(loaded.textures.texels));
     }
+}
+
+// A file at fault is a fault of its cell or centre, named once, and only when it is needed.
+TEST(Residency, DamagedFilesAreFaultsOfTheirCells) {
+  const BundleCopy copy;
+  const CellId damaged{4};
+  const CellSet& cells = shared_bake().cells;
+  put_bytes(copy.file(cell_name(damaged)), "damage");
+  const CentreId centre = views_of(cells.grid, CellId(2))[0];
+  std::filesystem::remove(copy.file(centre_name(centre)));
+  for (const bool prefetch : {false, true}) {
+    const Bundle bundle(copy.path());
+    Residency residency(shared_context().gl(), bundle,
+                        {.pool_texels = 8u << 20, .prefetch = prefetch});
+    EXPECT_TRUE(residency.faults().empty());
+    for (int round = 0; round < 3; ++round) {
+      const ResidentCell& cell = residency.enter(camera_at(cells, damaged));
+      EXPECT_EQ(cell.stand_in, StandIn::damaged_cell);
+      EXPECT_EQ(cell.ready, nullptr);
+      const ResidentCell& other = residency.enter(camera_at(cells, CellId(2)));
+      EXPECT_EQ(other.stand_in, StandIn::damaged_textures);
+      ASSERT_NE(other.ready, nullptr);
+      for (const std::uint8_t views : other.views) EXPECT_EQ(views & 1, 0);  // none of that centre
+    }
+    ASSERT_EQ(residency.faults().size(), 2u);
+    EXPECT_EQ(residency.faults()[0].stand_in, StandIn::damaged_cell);
+    EXPECT_NE(residency.faults()[0].what.find("cell-00004.geo: "), std::string::npos);
+    EXPECT_EQ(residency.faults()[1].stand_in, StandIn::damaged_textures);
+    EXPECT_NE(residency.faults()[1].what.find("centre-"), std::string::npos);
+  }
+}
+
+// A centre that shows nothing takes no room, and leaves that of others alone.
+TEST(Residency, CentresWithoutTexelsAreWhole) {
+  const BundleCopy copy;
+  const CellSet& cells = shared_bake().cells;
+  for (const CentreId centre : views_of(cells.grid, CellId(4)))
+    copy.write(centre, CentreTextures{});
+  const Bundle bundle(copy.path());
+  Residency residency(shared_context().gl(), bundle, kOnDemand);
+  for (const int id : {0, 4, 8, 4, 0}) {
+    const ResidentCell& cell = residency.enter(camera_at(cells, CellId(id)));
+    EXPECT_EQ(cell.stand_in, StandIn::none);
+    for (const std::uint8_t views : cell.views) EXPECT_EQ(id == 4 ? views : 0, 0);
+  }
 }
 
 // Walking to and fro with room for one cell and a little more must end in whole cells still.

@@ -39,6 +39,7 @@ PlayerOptions make_player_options(const Tool& tool, const PlayArguments& o) {
   player.n_threads = tool.common().n_threads;
   player.residency.pool_texels = static_cast<std::uint32_t>(o.texture_mb) << 18;
   player.residency.prefetch = !o.no_prefetch;
+  player.with_lod = row_of(o.session.reference).draws_levels;
   for (const Mode mode : o.session.modes) {
     player.with_lod |= row_of(mode).draws_levels;
     player.with_raycast |= row_of(mode).engine == ModeEngine::rays;
@@ -68,16 +69,20 @@ void declare_arguments(Tool& tool, PlayArguments& o) {
       .writes({"*/frame-*.png"});
   tool.add_option("--every", &o.session.save_every, "save every K-th frame")
       .show_default()
+      .needs("--save")
       .check(in_range(1, 100000));
   tool.add_option("--quality-every", &o.session.quality_every, "compare every K-th frame")
       .show_default()
+      .excludes("--no-quality")
       .check(in_range(1, 100000));
   tool.add_option("--stats", &o.stats_file, "write statistics as JSON (-: stdout)").writes();
   tool.add_option("--table", &o.table_file, "write the table of modes as Markdown (-: stdout)")
       .writes();
   tool.add_option("--plots", &o.plots_folder, "folder to write plots to, as SVG").writes({"*.svg"});
-  tool.add_option("--sheet", &o.sheet_file, "write a contact sheet of chosen frames, as PNG")
-      .writes();
+  tool.add_option("--sheet", &o.sheet_file,
+                  "write a contact sheet of the frames in which hybrid is worst, as PNG")
+      .writes()
+      .excludes("--no-quality");
   tool.add_option("--sheet-rows", &o.session.n_sheet_rows, "frames on it").show_default();
   tool.add_option("--gl", &o.gl, "osmesa | egl").show_default();
   tool.add_option("--texture-memory", &o.texture_mb, "MB of GL memory for textures")
@@ -94,6 +99,9 @@ PlayerOptions finish_arguments(const Tool& tool, PlayArguments& o) {
   const PlayerOptions player = make_player_options(tool, o);
   if (row_of(o.session.reference).engine == ModeEngine::rays && !player.with_raycast)
     throw UsageError("--reference: " + o.reference + " must be among --modes");
+  const auto& modes = o.session.modes;
+  if (!o.sheet_file.empty() && std::find(modes.begin(), modes.end(), Mode::hybrid) == modes.end())
+    throw UsageError("--sheet: hybrid must be among --modes");
   return player;
 }
 
