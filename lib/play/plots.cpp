@@ -1,5 +1,7 @@
 #include "play/plots.h"
 
+#include <cmath>
+
 #include "base/file.h"
 #include "report/plot.h"
 
@@ -18,36 +20,46 @@ Plot make_plot(const Timeline& timeline, const std::string& title, const std::st
   return {title, {std::move(panel)}, "new cell", PlotStyle::lines};
 }
 
-std::vector<double> times_of(const Timeline& timeline) {
-  std::vector<double> times_s;
-  for (const FrameInfo& frame : timeline.frames) times_s.push_back(frame.time_s);
-  return times_s;
+// A frame that was not compared is no point of a line: its neighbours are joined. One that was, and
+// in which nothing shows, breaks the line.
+void add_quality(double time_s, const PictureQuality& quality, double PictureQuality::*field,
+                 PlotLine& line) {
+  if (std::isnan(quality.mse)) return;
+  line.x.push_back(time_s);
+  line.y.push_back(quality.n_covered_px == 0 ? kNotMeasured : quality.*field);
+}
+
+PlotLine start_line(Mode mode) {
+  const ModeRow& row = row_of(mode);
+  return {row.name, row.color, row.is_dashed, {}, {}};
 }
 
 template <typename Value>
-void add_modes(const Timeline& timeline, bool with_reference, Value value, Plot& plot) {
+void add_modes(const Timeline& timeline, Value value, Plot& plot) {
   for (const ModeTimeline& mode : timeline.modes) {
-    if (!with_reference && mode.mode == timeline.reference) continue;
-    const ModeRow& row = row_of(mode.mode);
-    PlotLine line{row.name, row.color, row.is_dashed, times_of(timeline), {}};
-    for (const FrameRecord& frame : mode.frames)
-      line.y.push_back(static_cast<double>(value(frame)));
+    PlotLine line = start_line(mode.mode);
+    for (std::size_t i = 0; i < mode.frames.size(); ++i) {
+      line.x.push_back(timeline.frames[i].time_s);
+      line.y.push_back(static_cast<double>(value(mode.frames[i])));
+    }
     plot.panels[0].lines.push_back(std::move(line));
   }
 }
 
 Plot make_quality_plot(const Timeline& timeline, const std::string& title,
                        double PictureQuality::*field) {
-  Plot plot = make_plot(timeline, title, "PSNR (dB)");
-  plot.panels[0].y_most = kMostDbShown;
-  const auto value = [&](const PictureQuality& q) {
-    return q.n_covered_px == 0 ? kNotMeasured : q.*field;  // an empty frame says nothing
-  };
-  add_modes(
-      timeline, false, [&](const FrameRecord& f) { return value(f.quality); }, plot);
-  PlotLine yardstick{"half a pixel off", "#777777", true, times_of(timeline), {}};
-  for (const FrameInfo& frame : timeline.frames) yardstick.y.push_back(value(frame.yardstick));
-  plot.panels[0].lines.push_back(std::move(yardstick));
+  Plot plot = make_plot(timeline, title, "PSNR of luminance (dB; above 60 at the edge)");
+  PlotPanel& panel = plot.panels[0];
+  panel.y_most = kMostDbShown;
+  for (const ModeTimeline& mode : timeline.modes) {
+    if (mode.mode == timeline.reference) continue;
+    panel.lines.push_back(start_line(mode.mode));
+    for (std::size_t i = 0; i < mode.frames.size(); ++i)
+      add_quality(timeline.frames[i].time_s, mode.frames[i].quality, field, panel.lines.back());
+  }
+  panel.lines.push_back({"half a pixel off", "#777777", true, {}, {}});
+  for (const FrameInfo& frame : timeline.frames)
+    add_quality(frame.time_s, frame.yardstick, field, panel.lines.back());
   return plot;
 }
 
@@ -55,14 +67,15 @@ Plot make_quality_plot(const Timeline& timeline, const std::string& title,
 
 void write_plots(const std::filesystem::path& folder, const Timeline& timeline) {
   make_folder(folder);
-  Plot time = make_plot(timeline, "Frame time", "ms");
+  Plot time = make_plot(timeline, "Frame time", "ms a frame");
   time.panels[0].log_y = true;
   add_modes(
-      timeline, true, [](const FrameRecord& f) { return f.ms; }, time);
-  Plot triangles = make_plot(timeline, "Triangles drawn", "triangles");
+      timeline, [](const FrameRecord& f) { return f.ms; }, time);
+  Plot triangles = make_plot(timeline, "Triangles drawn", "triangles a frame");
   triangles.panels[0].log_y = true;
+  triangles.panels[0].y_least = 1;  // frames that show nothing
   add_modes(
-      timeline, true, [](const FrameRecord& f) { return f.n_triangles; }, triangles);
+      timeline, [](const FrameRecord& f) { return f.n_triangles; }, triangles);
   write_file(folder / "frame_ms.svg", format_svg(time));
   write_file(folder / "triangles.svg", format_svg(triangles));
   const std::string reference = mode_name(timeline.reference);

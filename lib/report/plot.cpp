@@ -106,7 +106,8 @@ bool is_drawable(double value, bool log) {
 }
 
 bool is_drawn(const PlotPanel& panel, const PlotLine& line, std::size_t i) {
-  return is_drawable(line.x[i], panel.log_x) && is_drawable(line.y[i], panel.log_y);
+  const bool is_at_edge = panel.log_y && panel.y_least > 0 && line.y[i] < panel.y_least;
+  return is_drawable(line.x[i], panel.log_x) && is_drawable(line.y[i], panel.log_y && !is_at_edge);
 }
 
 // Where the step of point i ends.
@@ -175,6 +176,11 @@ std::string draw_words(const PlotPanel& panel, const PanelBox& box) {
   return out;
 }
 
+// What PlotAxis::at does not clamp: a logarithm needs a number above 0.
+double clamp_y(const PlotPanel& panel, double y) {
+  return std::clamp(y, panel.y_least, panel.y_most);
+}
+
 std::string trace_line(const PlotPanel& panel, const PlotLine& line, const PanelAxes& axes,
                        PlotStyle kind) {
   std::string path;
@@ -185,9 +191,10 @@ std::string trace_line(const PlotPanel& panel, const PlotLine& line, const Panel
   bool is_broken = true;
   for (std::size_t i = 0; i < line.x.size(); ++i) {
     if (is_drawn(panel, line, i)) {
-      add(is_broken ? 'M' : 'L', line.x[i], line.y[i]);
+      add(is_broken ? 'M' : 'L', line.x[i], clamp_y(panel, line.y[i]));
       const double end = step_end(panel, line, i);
-      if (kind == PlotStyle::steps && is_drawable(end, panel.log_x)) add('L', end, line.y[i]);
+      if (kind == PlotStyle::steps && is_drawable(end, panel.log_x))
+        add('L', end, clamp_y(panel, line.y[i]));
     }
     is_broken = !is_drawn(panel, line, i);
   }
@@ -205,12 +212,34 @@ std::string draw_line(const std::string& path, const LineStyle& style, PlotStyle
          "/>\n";
 }
 
+// Points with breaks, or ends, on both sides: a path shows nothing of them.
+std::string draw_dots(const PlotPanel& panel, const PlotLine& line, const PanelAxes& axes,
+                      const LineStyle& style) {
+  std::string out;
+  const std::size_t n = line.x.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    const bool joins =
+        (i > 0 && is_drawn(panel, line, i - 1)) || (i + 1 < n && is_drawn(panel, line, i + 1));
+    if (joins || !is_drawn(panel, line, i)) continue;
+    out += "<circle cx=\"" + svg_number(axes.x.at(line.x[i])) + "\" cy=\"" +
+           svg_number(axes.y.at(clamp_y(panel, line.y[i]))) + "\" r=\"2.5\" fill=\"" + style.color +
+           "\"/>\n";
+  }
+  return out;
+}
+
 std::string draw_panel(const Plot& plot, const PlotPanel& panel, const PanelBox& box,
                        const PlotAxis& y, const std::vector<LineStyle>& styles) {
   const PanelAxes axes{make_x_axis(panel, box, plot.style), y};
   std::string out = draw_axes(panel, box, axes) + draw_words(panel, box);
-  for (const PlotLine& line : panel.lines)
-    out += draw_line(trace_line(panel, line, axes, plot.style), style_of(line, styles), plot.style);
+  for (const PlotLine& line : panel.lines) {
+    const LineStyle& style = style_of(line, styles);
+    out += draw_line(trace_line(panel, line, axes, plot.style), style, plot.style);
+    if (plot.style == PlotStyle::lines) out += draw_dots(panel, line, axes, style);
+  }
+  if (count_points(panel) == 0)
+    out += svg_text(0.5 * (box.left + box.right), 0.5 * (box.top + box.bottom), "middle",
+                    "nothing was measured");
   return out;
 }
 

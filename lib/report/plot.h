@@ -15,7 +15,7 @@ struct PlotLine {
 };
 
 enum class PlotStyle {
-  lines,
+  lines,   ///< a point between two breaks shows as a dot
   points,  ///< lines with a mark at every point, of another shape for each line
   steps    ///< y holds from its x to the next; at the last, as far as at the one before
 };
@@ -24,10 +24,11 @@ struct PlotPanel {
   std::string title;
   std::string x_label, y_label;
   std::vector<PlotLine> lines;
-  std::vector<double> marks;          ///< thin vertical lines, at x
-  bool log_x = false, log_y = false;  ///< values that are not positive break the line
-  double y_least = -1e300;            ///< values below are drawn at the lower edge
-  double y_most = 1e300;              ///< values above are drawn at the upper edge
+  std::vector<double> marks;  ///< thin vertical lines, at x
+  /// Values that are not positive break the line, but for those below a y_least above 0.
+  bool log_x = false, log_y = false;
+  double y_least = -1e300;  ///< values below are drawn at the lower edge
+  double y_most = 1e300;    ///< values above are drawn at the upper edge
 };
 
 struct Plot {

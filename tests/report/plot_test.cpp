@@ -46,6 +46,37 @@ std::vector<Point> path_points(const std::string& svg, int k = 0) {
   return points;
 }
 
+// A value between two that are missing, a lone one, a constant, zeros on a logarithmic axis.
+TEST(Plot, LonePointsAreDots) {
+  Plot plot = make_plot();
+  plot.panels[0].lines = {{"a", "#111111", false, {0, 1, 2, 3, 4}, {1, kNaN, 2, kNaN, 3}},
+                          {"b", "#222222", false, {2}, {5}},
+                          {"c", "#333333", false, {0, 4}, {5, 5}}};
+  const std::string svg = format_svg(plot);
+  EXPECT_EQ(count(svg, "<circle "), 4u);
+  EXPECT_EQ(count(svg, "r=\"2.5\" fill=\"#111111\""), 3u);
+  plot.style = PlotStyle::points;
+  EXPECT_EQ(count(format_svg(plot), "<circle "), 0u);  // marks show them
+}
+
+TEST(Plot, ZerosOfALogarithmicAxisAreAtTheLeastShown) {
+  Plot plot = make_plot();
+  plot.panels[0].log_y = true;
+  plot.panels[0].lines = {{"a", "#111111", false, {0, 1, 2}, {100, 0, 1000}}};
+  EXPECT_EQ(path_points(format_svg(plot)).size(), 2u);  // the zero is left out
+  plot.panels[0].y_least = 10;
+  const std::vector<Point> points = path_points(format_svg(plot));
+  ASSERT_EQ(points.size(), 3u);
+  EXPECT_NEAR(points[1].y - points[0].y, points[0].y - points[2].y, 0.2);  // a decade each
+}
+
+TEST(Plot, APanelWithoutPointsSaysSo) {
+  Plot plot = make_plot();
+  plot.panels[0].lines = {{"a", "#111111", false, {0, 1}, {kNaN, kNaN}}};
+  EXPECT_EQ(count(format_svg(plot), "nothing was measured"), 1u);
+  EXPECT_EQ(count(format_svg(make_plot()), "nothing was measured"), 0u);
+}
+
 TEST(Plot, LinesLegendAndMarksAreThere) {
   const std::string svg = format_svg(make_plot());
   EXPECT_EQ(count(svg, "<path "), 2u);
