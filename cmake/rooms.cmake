@@ -24,8 +24,8 @@ set(VIEWCELL_ROOMS
 # Sources that need OpenImageIO are compiled as one, the others as others, VIEWCELL_UNITY_BATCH at a
 # time: a program that calls none of the former does not load its 260 libraries, 0.2 s of a start
 # (tests/cli/libraries.sh).
-set(VIEWCELL_NEEDS_OPENIMAGEIO "^#include [<\"](OpenImageIO/|image/(capture_file|exr_layout|header|\
-index_map|io|library|memory_input)\\.h|formats/texture(_file|d_obj)\\.h)")
+set(VIEWCELL_NEEDS_OPENIMAGEIO "^#include [<\"](OpenImageIO/|image/(capture_file|deep_metrics|\
+exr_layout|header|index_map|io|library|memory_input)\\.h|formats/texture(_file|d_obj)\\.h)")
 function(viewcell_group_sources TARGET)
   set(n 0)
   foreach(source ${ARGN})

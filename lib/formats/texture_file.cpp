@@ -94,7 +94,8 @@ std::int64_t image_of_material(const JsonCursor& root, std::int64_t id, const Sl
   return image_of_texture(root.at("textures").at(static_cast<std::size_t>(texture)));
 }
 
-ImageRgba8 decode_gltf_texture(std::string_view bytes, const fs::path& file, const Slot& slot) {
+ImageRgba8 decode_gltf_texture(std::string_view bytes, const fs::path& file, const Slot& slot,
+                               const ReadImageOptions& options) {
   const GltfFile gltf = parse_gltf_file(bytes, file);
   std::set<std::int64_t> images;
   for (const std::int64_t material : used_materials(gltf.root()))
@@ -108,7 +109,7 @@ ImageRgba8 decode_gltf_texture(std::string_view bytes, const fs::path& file, con
                          "; one is drawn at a time");
   const std::int64_t image = *images.begin();
   return decode_image_rgba8(read_image_bytes(gltf, image),
-                            file.string() + ": images[" + std::to_string(image) + "]");
+                            file.string() + ": images[" + std::to_string(image) + "]", options);
 }
 
 }  // namespace
@@ -117,14 +118,15 @@ fs::path texture_file(const std::string& name) {
   return name.substr(0, find_slot(name));
 }
 
-ImageRgba8 read_texture(const std::string& name, std::string* hash) {
+ImageRgba8 read_texture(const std::string& name, std::string* hash,
+                        const ReadImageOptions& options) {
   const fs::path file = texture_file(name);
   const Slot& slot = slot_of(name);
   const std::string bytes = read_file(file);
   if (hash != nullptr) *hash = hash_hex(bytes);
   if (bytes.starts_with("glTF") || ends_as_gltf(file.string()))
-    return decode_gltf_texture(bytes, file, slot);
-  return decode_image_rgba8(bytes, file.string());
+    return decode_gltf_texture(bytes, file, slot, options);
+  return decode_image_rgba8(bytes, file.string(), options);
 }
 
 }  // namespace viewcell

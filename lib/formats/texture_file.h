@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "image/image.h"
+#include "image/io.h"
 
 namespace viewcell {
 
@@ -19,7 +19,8 @@ namespace viewcell {
 /// are passed over. Throws InputError for several pictures, for none, for texture coordinates other
 /// than the first set or moved by KHR_texture_transform (read_mesh reads neither), for an unknown
 /// slot, and for anything malformed. hash: hash_hex of the file's bytes, if wanted.
-ImageRgba8 read_texture(const std::string& name, std::string* hash = nullptr);
+ImageRgba8 read_texture(const std::string& name, std::string* hash = nullptr,
+                        const ReadImageOptions& options = {});
 
 /// The file that a texture's name means: without its #SLOT.
 std::filesystem::path texture_file(const std::string& name);

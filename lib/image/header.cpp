@@ -1,172 +1,165 @@
 #include "image/header.h"
 
-#include <zlib.h>
-
-#include <cstdint>
-#include <optional>
+#include <algorithm>
+#include <array>
 
 #include "base/error.h"
+#include "image/picture_facts.h"
 
 namespace viewcell {
 namespace {
 
-struct Size {
-  long long width_px;
-  long long height_px;
+using Facts = std::optional<PictureFacts> (*)(std::string_view);
+
+struct FormatRow {
+  ImageFormat format;
+  const char* name;
+  const char* extension;
+  std::vector<std::string> endings;
+  Facts facts;  // null: opened without allocating, and checked then
 };
 
-std::uint32_t byte_at(std::string_view bytes, std::size_t i) {
-  return static_cast<unsigned char>(bytes[i]);
+const std::vector<FormatRow>& format_rows() {
+  static const std::vector<FormatRow> rows = {
+      {ImageFormat::png, "png", ".png", {".png"}, png_facts},
+      {ImageFormat::jpeg, "jpeg", ".jpg", {".jpg", ".jpeg"}, jpeg_facts},
+      {ImageFormat::openexr, "openexr", ".exr", {".exr"}, nullptr},
+      {ImageFormat::tiff, "tiff", ".tif", {".tif", ".tiff"}, nullptr},
+      {ImageFormat::webp, "webp", ".webp", {".webp"}, webp_facts},
+      {ImageFormat::gif, "gif", ".gif", {".gif"}, gif_facts},
+      {ImageFormat::bmp, "bmp", ".bmp", {".bmp"}, bmp_facts},
+      {ImageFormat::targa, "targa", ".tga", {".tga"}, targa_facts},
+      {ImageFormat::pnm, "pnm", ".ppm", {".ppm", ".pgm", ".pbm", ".pnm", ".pfm"}, pnm_facts},
+      {ImageFormat::hdr, "hdr", ".hdr", {".hdr"}, hdr_facts}};
+  return rows;
 }
 
-std::uint32_t big_endian_16(std::string_view bytes, std::size_t i) {
-  return byte_at(bytes, i) << 8 | byte_at(bytes, i + 1);
+const FormatRow& row_of_format(ImageFormat format) {
+  const std::vector<FormatRow>& rows = format_rows();
+  const auto found = std::find_if(rows.begin(), rows.end(),
+                                  [&](const FormatRow& row) { return row.format == format; });
+  VIEWCELL_CHECK(found != rows.end(), static_cast<int>(format));
+  return *found;
 }
 
-std::uint32_t big_endian_32(std::string_view bytes, std::size_t i) {
-  return big_endian_16(bytes, i) << 16 | big_endian_16(bytes, i + 2);
+bool is_pnm(const HeaderBytes& bytes) {
+  const std::string_view kinds = "123456Ff", spaces = " \t\r\n#";
+  const auto is_one_of = [&](std::string_view set, std::size_t i) {
+    return set.find(static_cast<char>(bytes.u8(i))) != std::string_view::npos;
+  };
+  return bytes.size() > 2 && bytes.u8(0) == 'P' && is_one_of(kinds, 1) && is_one_of(spaces, 2);
 }
 
-std::uint32_t little_endian_16(std::string_view bytes, std::size_t i) {
-  return byte_at(bytes, i) | byte_at(bytes, i + 1) << 8;
-}
-
-std::uint32_t little_endian_24(std::string_view bytes, std::size_t i) {
-  return little_endian_16(bytes, i) | byte_at(bytes, i + 2) << 16;
-}
-
-bool has_at(std::string_view bytes, std::size_t i, std::string_view magic) {
-  return bytes.size() >= i + magic.size() && bytes.substr(i, magic.size()) == magic;
-}
-
-std::optional<ImageFormat> format_of(std::string_view bytes) {
+std::optional<ImageFormat> format_of(std::string_view all) {
   using namespace std::string_view_literals;
-  if (has_at(bytes, 0, "\x89PNG\r\n\x1a\n"sv)) return ImageFormat::png;
-  if (has_at(bytes, 0, "\xff\xd8\xff"sv)) return ImageFormat::jpeg;
-  if (has_at(bytes, 0, "\x76\x2f\x31\x01"sv)) return ImageFormat::openexr;
-  if (has_at(bytes, 0, "II*\0"sv) || has_at(bytes, 0, "MM\0*"sv)) return ImageFormat::tiff;
-  if (has_at(bytes, 0, "RIFF"sv) && has_at(bytes, 8, "WEBP"sv)) return ImageFormat::webp;
+  const HeaderBytes bytes(all);
+  if (bytes.has_at(0, "\x89PNG\r\n\x1a\n"sv)) return ImageFormat::png;
+  if (bytes.has_at(0, "\xff\xd8\xff"sv)) return ImageFormat::jpeg;
+  if (bytes.has_at(0, "\x76\x2f\x31\x01"sv)) return ImageFormat::openexr;
+  for (const std::string_view magic : {"II*\0"sv, "MM\0*"sv, "II+\0"sv, "MM\0+"sv})
+    if (bytes.has_at(0, magic)) return ImageFormat::tiff;
+  if (bytes.has_at(0, "RIFF"sv) && bytes.has_at(8, "WEBP"sv)) return ImageFormat::webp;
+  if (bytes.has_at(0, "GIF87a"sv) || bytes.has_at(0, "GIF89a"sv)) return ImageFormat::gif;
+  if (bytes.has_at(0, "#?RADIANCE"sv) || bytes.has_at(0, "#?RGBE"sv)) return ImageFormat::hdr;
+  if (bytes.has_at(0, "BM"sv) && bmp_facts(all)) return ImageFormat::bmp;
+  if (is_pnm(bytes)) return ImageFormat::pnm;
+  if (targa_facts(all)) return ImageFormat::targa;
   return std::nullopt;
 }
 
-// Walks the chunks to IEND and checks their sums, because libpng prints on stderr what it finds.
-std::optional<Size> png_size(std::string_view bytes) {
-  constexpr std::size_t kFrame = 12;  // length, type and sum around a chunk's data
-  if (!has_at(bytes, 12, "IHDR")) return std::nullopt;
-  for (std::size_t i = 8; i + kFrame <= bytes.size();) {
-    const std::size_t length = big_endian_32(bytes, i);
-    if (length > bytes.size() - i - kFrame) return std::nullopt;
-    const auto* type = reinterpret_cast<const Bytef*>(bytes.data() + i + 4);
-    if (crc32_z(0, type, length + 4) != big_endian_32(bytes, i + 8 + length)) return std::nullopt;
-    if (has_at(bytes, i + 4, "IEND"))
-      return Size{big_endian_32(bytes, 16), big_endian_32(bytes, 20)};
-    i += kFrame + length;
-  }
-  return std::nullopt;
+// Pictures that people have and that are not read, to be called by their names.
+const char* name_of_unread(std::string_view all) {
+  using namespace std::string_view_literals;
+  struct Magic {
+    std::size_t at;
+    std::string_view bytes;
+    const char* name;
+  };
+  constexpr std::array<Magic, 12> kMagics{{{0, "DDS "sv, "DDS"},
+                                           {0, "8BPS"sv, "Photoshop"},
+                                           {0, "\xabKTX 11"sv, "KTX"},
+                                           {0, "\xabKTX 20"sv, "KTX2"},
+                                           {4, "jP  "sv, "JPEG 2000"},
+                                           {0, "\xff\x0a"sv, "JPEG XL"},
+                                           {4, "JXL "sv, "JPEG XL"},
+                                           {4, "ftypavif"sv, "AVIF"},
+                                           {4, "ftyphei"sv, "HEIC"},
+                                           {4, "ftypmif1"sv, "HEIC"},
+                                           {0, "P7\n"sv, "PAM"},
+                                           {0, "<svg"sv, "SVG"}}};
+  const HeaderBytes bytes(all);
+  for (const Magic& magic : kMagics)
+    if (bytes.has_at(magic.at, magic.bytes)) return magic.name;
+  return nullptr;
 }
 
-// SOF0 to SOF15, except the tables DHT, JPG and DAC that sit among their numbers.
-bool is_start_of_frame(std::uint32_t marker) {
-  return marker >= 0xc0 && marker <= 0xcf && marker != 0xc4 && marker != 0xc8 && marker != 0xcc;
+[[noreturn]] void refuse_format(std::string_view bytes, const std::string& file) {
+  if (const char* name = name_of_unread(bytes))
+    throw InputError(file, "",
+                     std::string("is not a PNG but a picture as ") + name +
+                         ", which is not read: convert it to PNG");
+  throw InputError(file, "",
+                   "is not a PNG, JPEG, EXR, TIFF, WebP, GIF, BMP, TGA, PPM (PGM, PBM, PFM) or HDR "
+                   "picture");
 }
 
-// Walks the segments to the frame header, and holds that the end marker follows it.
-std::optional<Size> jpeg_size(std::string_view bytes) {
-  std::size_t i = 2;
-  while (i + 9 <= bytes.size()) {
-    if (byte_at(bytes, i) != 0xff) return std::nullopt;
-    const std::uint32_t marker = byte_at(bytes, i + 1);
-    if (marker == 0xff) {  // fill byte
-      ++i;
-      continue;
-    }
-    if (is_start_of_frame(marker)) {
-      if (bytes.find("\xff\xd9", i) == std::string_view::npos) return std::nullopt;
-      return Size{big_endian_16(bytes, i + 7), big_endian_16(bytes, i + 5)};
-    }
-    i += 2 + big_endian_16(bytes, i + 2);
-  }
-  return std::nullopt;
+std::string size_in_words(long long width_px, long long height_px) {
+  return std::to_string(width_px) + " x " + std::to_string(height_px) + " pixels";
 }
 
-// The three kinds of first chunk: lossy, lossless, extended.
-std::optional<Size> webp_size(std::string_view bytes) {
-  if (bytes.size() < 30) return std::nullopt;
-  if (has_at(bytes, 12, "VP8 "))
-    return Size{little_endian_16(bytes, 26) & 0x3fff, little_endian_16(bytes, 28) & 0x3fff};
-  if (has_at(bytes, 12, "VP8L")) {
-    const std::uint32_t all = little_endian_24(bytes, 21) | byte_at(bytes, 24) << 24;
-    return Size{(all & 0x3fff) + 1, (all >> 14 & 0x3fff) + 1};
-  }
-  if (has_at(bytes, 12, "VP8X"))
-    return Size{little_endian_24(bytes, 24) + 1LL, little_endian_24(bytes, 27) + 1LL};
-  return std::nullopt;
+void check_facts(const PictureFacts& facts, const std::string& file, const ImageLimits& limits) {
+  check_image_size(facts.width_px, facts.height_px, file, limits);
+  if (facts.n_bytes >= facts.least_bytes || (limits.max_pixels && !facts.is_law)) return;
+  const std::string words = size_in_words(facts.width_px, facts.height_px) + " in " +
+                            std::to_string(facts.n_bytes) + " bytes: ";
+  throw InputError(
+      file, "header",
+      words + (facts.is_law ? "no file of its kind holds so many in so few, so it is "
+                              "cut, or lies about its size"
+                            : "so many in so few are decoded with --max-pixels alone"));
 }
 
 }  // namespace
 
 const char* name_of(ImageFormat format) {
-  switch (format) {
-    case ImageFormat::png:
-      return "png";
-    case ImageFormat::jpeg:
-      return "jpeg";
-    case ImageFormat::openexr:
-      return "openexr";
-    case ImageFormat::tiff:
-      return "tiff";
-    case ImageFormat::webp:
-      return "webp";
-  }
-  throw_bug(__FILE__, __LINE__, "unknown image format", static_cast<int>(format));
+  return row_of_format(format).name;
 }
 
 const char* extension_of(ImageFormat format) {
-  switch (format) {
-    case ImageFormat::png:
-      return ".png";
-    case ImageFormat::jpeg:
-      return ".jpg";
-    case ImageFormat::openexr:
-      return ".exr";
-    case ImageFormat::tiff:
-      return ".tif";
-    case ImageFormat::webp:
-      return ".webp";
-  }
-  throw_bug(__FILE__, __LINE__, "unknown image format", static_cast<int>(format));
+  return row_of_format(format).extension;
 }
 
-void check_image_size(long long width_px, long long height_px, const std::string& file) {
-  const auto size = std::to_string(width_px) + " x " + std::to_string(height_px) + " pixels";
+const std::vector<std::string>& picture_endings() {
+  static const std::vector<std::string> all = [] {
+    std::vector<std::string> endings;
+    for (const FormatRow& row : format_rows())
+      endings.insert(endings.end(), row.endings.begin(), row.endings.end());
+    return endings;
+  }();
+  return all;
+}
+
+void check_image_size(long long width_px, long long height_px, const std::string& file,
+                      const ImageLimits& limits) {
+  const std::string size = size_in_words(width_px, height_px);
   if (width_px < 1 || height_px < 1) throw InputError(file, "header", size);
-  if (width_px > kMaxImageSidePx || height_px > kMaxImageSidePx ||
-      width_px * height_px > kMaxImagePixels)
+  const long long most =
+      limits.max_pixels ? static_cast<long long>(*limits.max_pixels) : kMaxImagePixels;
+  if (width_px > most / height_px)
     throw InputError(file, "header",
-                     size + ", more than " + std::to_string(kMaxImageSidePx) + " a side or " +
-                         std::to_string(kMaxImagePixels) + " in all");
+                     size + ", more than " + std::to_string(most) + " in all (--max-pixels)");
 }
 
-ImageFormat check_image_header(std::string_view bytes, const std::string& file) {
+ImageFormat check_image_header(std::string_view bytes, const std::string& file,
+                               const ImageLimits& limits, Remarks* remarks) {
   const std::optional<ImageFormat> format = format_of(bytes);
-  if (!format) throw InputError(file, "", "is not a PNG, JPEG, EXR, TIFF or WebP picture");
-  std::optional<Size> size;
-  switch (*format) {
-    case ImageFormat::png:
-      size = png_size(bytes);
-      break;
-    case ImageFormat::jpeg:
-      size = jpeg_size(bytes);
-      break;
-    case ImageFormat::webp:
-      size = webp_size(bytes);
-      break;
-    case ImageFormat::openexr:
-    case ImageFormat::tiff:
-      return *format;  // opened without allocating: the caller checks
-  }
-  if (!size) throw InputError(file, "header", std::string("malformed or cut ") + name_of(*format));
-  check_image_size(size->width_px, size->height_px, file);
+  if (!format) refuse_format(bytes, file);
+  const FormatRow& row = row_of_format(*format);
+  if (row.facts == nullptr) return *format;
+  const std::optional<PictureFacts> facts = row.facts(bytes);
+  if (!facts) throw InputError(file, "header", std::string("malformed or cut ") + row.name);
+  check_facts(*facts, file, limits);
+  add_remark(remarks, kFurtherPictures, facts->n_pictures - 1);
   return *format;
 }
 

@@ -5,6 +5,7 @@
 #include <glm/glm.hpp>
 #include <string>
 
+#include "image/header.h"
 #include "image/image.h"
 
 namespace viewcell {
@@ -33,6 +34,6 @@ void write_index_map(const std::filesystem::path& file, const IndexMap& map,
 /// there is none; if wanted. Size, channels and their types are checked before pixels are read.
 /// Throws InputError for all else, and for numbers that are not finite or beyond 1e30.
 IndexMap read_index_map(const std::filesystem::path& file, std::string* hash = nullptr,
-                        std::string* label = nullptr);
+                        std::string* label = nullptr, const ImageLimits& limits = {});
 
 }  // namespace viewcell

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <set>
 #include <string>
 
 #include "base/error.h"
@@ -40,17 +41,21 @@ ChannelMap map_channels(const OIIO::ImageSpec& spec, ImageFormat format, const s
   return map;
 }
 
-// The samples as RGBA: convert(sample, c) gives the code value of channel c.
-template <typename Sample, typename Convert>
-ImageRgba8 gather(const std::vector<Sample>& samples, const OIIO::ImageSpec& spec,
-                  const ChannelMap& map, const Convert& convert) {
-  ImageRgba8 image(spec.width, spec.height, {0, 0, 0, 255});
-  const auto stride = static_cast<std::size_t>(map.n_read);
+void remark_channels(const OIIO::ImageSpec& spec, const ChannelMap& map, Remarks* remarks) {
+  const std::set<int> used(map.from.begin(), map.from.end());
+  const auto n_used = static_cast<int>(used.size() - used.count(-1));
+  add_remark(remarks, "channels beside colour and alpha, left out",
+             static_cast<std::size_t>(std::max(0, spec.nchannels - n_used)));
+}
+
+// The samples as RGBA: convert(sample, c) gives the value of channel c.
+template <typename Pixel, typename Sample, typename Convert>
+Image<Pixel> gather(const Samples<Sample>& samples, const OIIO::ImageSpec& spec,
+                    const ChannelMap& map, const Pixel& fill, const Convert& convert) {
+  Image<Pixel> image(spec.width, spec.height, fill);
   for (std::size_t p = 0; p < image.pixels.size(); ++p)
     for (std::size_t c = 0; c < 4; ++c)
-      if (map.from[c] >= 0)
-        image.pixels[p][c] =
-            convert(samples[p * stride + static_cast<std::size_t>(map.from[c])], c);
+      if (map.from[c] >= 0) image.pixels[p][c] = convert(samples.pixel(p)[map.from[c]], c);
   return image;
 }
 
@@ -61,29 +66,91 @@ void divide_by_alpha(ImageRgba8& image) {
       p[c] = static_cast<std::uint8_t>(std::min(255, (p[c] * 255 + p[3] / 2) / p[3]));
 }
 
-ImageRgba8 read_pixels(MemoryInput& picture, const std::string& file) {
-  const OIIO::ImageSpec& spec = picture.spec;
-  const ChannelMap map = map_channels(spec, picture.format, file);
-  if (spec.format.is_floating_point())
-    return gather(decode<float>(picture, map.n_read, file), spec, map, [](float x, std::size_t c) {
-      if (c < 3) return srgb8_from_linear(x);
-      return static_cast<std::uint8_t>(std::lround(255 * std::clamp(x, 0.f, 1.f)));
-    });
-  return gather(decode<std::uint8_t>(picture, map.n_read, file), spec, map,
-                [](std::uint8_t x, std::size_t) { return x; });
+// BMP and TGA of 32 bits often leave the fourth byte at 0 and mean nothing by it.
+void mend_alpha(ImageFormat format, ImageRgba8& image, Remarks* remarks) {
+  if (format == ImageFormat::webp) divide_by_alpha(image);
+  if (format != ImageFormat::bmp && format != ImageFormat::targa) return;
+  const auto is_clear = [](const Rgba8& pixel) { return pixel[3] == 0; };
+  if (!std::all_of(image.pixels.begin(), image.pixels.end(), is_clear)) return;
+  for (Rgba8& pixel : image.pixels) pixel[3] = 255;
+  add_remark(remarks, "alpha that is 0 everywhere, taken as opaque");
+}
+
+SampleKind kind_of(const OIIO::TypeDesc& type, const std::string& file) {
+  if (type.is_floating_point()) return SampleKind::linear;
+  if (type.is_signed())
+    throw InputError(file, "header", "has signed samples, which are no colours");
+  return type == OIIO::TypeUInt8 ? SampleKind::code8 : SampleKind::code16;
+}
+
+// An opened picture and how its channels become RGBA.
+struct OpenedPicture {
+  MemoryInput input;
+  ChannelMap map;
+  SampleKind kind;
+};
+
+OpenedPicture open_picture(std::string_view bytes, const std::string& file,
+                           const ReadImageOptions& options) {
+  OpenedPicture opened{open_memory(bytes, file, options.limits, options.remarks), {}, {}};
+  opened.map = map_channels(opened.input.spec, opened.input.format, file);
+  opened.kind = kind_of(opened.input.spec.format, file);
+  remark_channels(opened.input.spec, opened.map, options.remarks);
+  return opened;
+}
+
+ImageRgba8 read_codes(OpenedPicture& opened, const std::string& file, Remarks* remarks) {
+  MemoryInput& input = opened.input;
+  const Rgba8 fill{0, 0, 0, 255};
+  if (opened.kind == SampleKind::linear)
+    return gather(decode<float>(input, opened.map.n_read, file), input.spec, opened.map, fill,
+                  [](float x, std::size_t c) {
+                    if (c < 3) return srgb8_from_linear(x);
+                    return static_cast<std::uint8_t>(std::lround(255 * std::clamp(x, 0.f, 1.f)));
+                  });
+  ImageRgba8 image = gather(decode<std::uint8_t>(input, opened.map.n_read, file), input.spec,
+                            opened.map, fill, [](std::uint8_t x, std::size_t) { return x; });
+  mend_alpha(input.format, image, remarks);
+  return image;
+}
+
+ImageRgbaFloat read_samples(OpenedPicture& opened, const std::string& file) {
+  MemoryInput& input = opened.input;
+  const auto keep = [](auto x, std::size_t) { return static_cast<float>(x); };
+  if (opened.kind == SampleKind::linear)
+    return gather(decode<float>(input, opened.map.n_read, file), input.spec, opened.map,
+                  RgbaFloat{0, 0, 0, 1}, keep);
+  return gather(decode<std::uint16_t>(input, opened.map.n_read, file), input.spec, opened.map,
+                RgbaFloat{0, 0, 0, 65535}, keep);
 }
 
 }  // namespace
 
-ImageRgba8 decode_image_rgba8(std::string_view bytes, const std::string& name) {
-  MemoryInput picture = open_memory(bytes, name);
-  ImageRgba8 image = read_pixels(picture, name);
-  if (picture.format == ImageFormat::webp) divide_by_alpha(image);
-  return image;
+ImageRgba8 decode_image_rgba8(std::string_view bytes, const std::string& name,
+                              const ReadImageOptions& options) {
+  OpenedPicture opened = open_picture(bytes, name, options);
+  if (opened.kind == SampleKind::code16)
+    add_remark(options.remarks, "samples of more than 8 bits, rounded to 8");
+  if (opened.kind == SampleKind::linear)
+    add_remark(options.remarks, "linear samples, encoded as sRGB of 8 bits and clamped to [0, 1]");
+  return read_codes(opened, name, options.remarks);
 }
 
-ImageRgba8 read_image_rgba8(const std::filesystem::path& file) {
-  return decode_image_rgba8(read_file(file, kMaxImageFileBytes), file.string());
+ImageRgba8 read_image_rgba8(const std::filesystem::path& file, const ReadImageOptions& options) {
+  return decode_image_rgba8(read_file(file, kMaxImageFileBytes), file.string(), options);
+}
+
+DeepImage read_deep_image(const std::filesystem::path& path, const ReadImageOptions& options) {
+  const std::string file = path.string();
+  const std::string bytes = read_file(path, kMaxImageFileBytes);
+  OpenedPicture opened = open_picture(bytes, file, options);
+  DeepImage image;
+  image.kind = opened.kind;
+  if (opened.kind == SampleKind::code8)
+    image.codes = read_codes(opened, file, options.remarks);
+  else
+    image.samples = read_samples(opened, file);
+  return image;
 }
 
 std::string encode_png(const ImageRgba8& image, PngAlpha alpha) {

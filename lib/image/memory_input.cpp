@@ -1,29 +1,99 @@
 #include "image/memory_input.h"
 
-#include "image/library.h"
+#include <array>
+#include <cstring>
 
 namespace viewcell {
 namespace {
 
 constexpr int kMaxChannels = 64;
 
+// What a byte of a compressed file can turn into.
+struct Inflation {
+  const char* compression;
+  std::uint64_t most;
+};
+constexpr std::array<Inflation, 12> kInflations{{{"none", 2},  // 2: colour may be stored coarser
+                                                 {"packbits", 128},
+                                                 {"rle", 128},
+                                                 {"zip", 1032},
+                                                 {"zips", 1032},
+                                                 {"piz", 1032},
+                                                 {"pxr24", 2064},
+                                                 {"lzw", 4096},
+                                                 {"jpeg", 4096},
+                                                 {"b44", 64},
+                                                 {"b44a", 64},
+                                                 {"dwaa", 1 << 17}}};
+constexpr std::uint64_t kMostInflation = 1 << 17;  // any other: fax, zstd, lzma, dwab
+
+std::uint64_t most_inflation(const OIIO::ImageSpec& spec) {
+  // "zip:4" names a level, too; a palette's colours come out as three channels of 8 bits, and a bit
+  // as a byte.
+  std::string name = spec.get_string_attribute("compression", "none");
+  name = name.substr(0, name.find(':'));
+  const auto bits =
+      static_cast<std::uint64_t>(std::max(1, spec.get_int_attribute("oiio:BitsPerSample", 8)));
+  const std::uint64_t widened = spec.get_int_attribute("tiff:PhotometricInterpretation") == 3 ? 24
+                                : bits < 8 ? 8 / bits
+                                           : 1;
+  for (const Inflation& known : kInflations)
+    if (name == known.compression) return known.most * widened;
+  return kMostInflation * widened;
+}
+
+// What decoding would allocate, against what the file's bytes can hold.
+void check_inflation(const OIIO::ImageSpec& spec, std::size_t n_file_bytes,
+                     const std::string& file) {
+  if (spec.image_bytes(true) / most_inflation(spec) > n_file_bytes)
+    throw InputError(file, "header",
+                     std::to_string(spec.width) + " x " + std::to_string(spec.height) +
+                         " pixels: " + std::to_string(spec.image_bytes(true)) +
+                         " bytes of pixels in a file of " + std::to_string(n_file_bytes));
+}
+
 // What the decoder will allocate, before it does.
-void check_spec(const OIIO::ImageSpec& spec, const std::string& file) {
-  check_image_size(spec.width, spec.height, file);
-  if (spec.tile_width > 0) check_image_size(16LL * spec.tile_width, 16LL * spec.tile_height, file);
+void check_spec(const MemoryInput& picture, std::size_t n_file_bytes, const std::string& file,
+                const ImageLimits& limits) {
+  const OIIO::ImageSpec& spec = picture.spec;
+  check_image_size(spec.width, spec.height, file, limits);
+  if (spec.tile_width > 0)
+    check_image_size(16LL * spec.tile_width, 16LL * spec.tile_height, file, limits);
   if (spec.depth > 1 || spec.deep) throw InputError(file, "header", "is not a flat picture");
   if (spec.nchannels < 1 || spec.nchannels > kMaxChannels)
     throw InputError(
         file, "header",
         std::to_string(spec.nchannels) + " channels, more than " + std::to_string(kMaxChannels));
+  if (picture.format == ImageFormat::openexr || picture.format == ImageFormat::tiff)
+    check_inflation(spec, n_file_bytes, file);
+}
+
+void remark_spec(MemoryInput& picture, const std::string& file, Remarks* remarks) {
+  const int orientation = picture.spec.get_int_attribute("Orientation", 1);
+  if (orientation > 1 && orientation <= 8)
+    add_remark(remarks, "orientation " + std::to_string(orientation) +
+                            " (turned or mirrored for display), not followed: rows are as stored");
+  if (remarks == nullptr) return;
+  int n = picture.spec.get_int_attribute("oiio:subimages", 1);
+  if (picture.format == ImageFormat::tiff) {  // does not count its pages
+    constexpr int kMostCounted = 1000;
+    const bool is_back = call_library(file, [&] {
+      for (n = 1; n < kMostCounted && picture.input->seek_subimage(n, 0);) ++n;
+      picture.input->geterror();  // that there are no more
+      return picture.input->seek_subimage(0, 0);
+    });
+    if (!is_back) throw InputError(file, "", first_line(picture.input->geterror()));
+  }
+  add_remark(remarks, kFurtherPictures, static_cast<std::size_t>(std::max(n, 1) - 1));
 }
 
 }  // namespace
 
-MemoryInput open_memory(std::string_view bytes, const std::string& file) {
+MemoryInput open_memory(std::string_view bytes, const std::string& file, const ImageLimits& limits,
+                        Remarks* remarks) {
   configure_openimageio();
   MemoryInput picture;
-  picture.format = check_image_header(bytes, file);
+  picture.format = check_image_header(bytes, file, limits, remarks);
   // The reader only reads; its parameter is not const.
   picture.memory = std::make_unique<OIIO::Filesystem::IOMemReader>(const_cast<char*>(bytes.data()),
                                                                    bytes.size());
@@ -32,9 +102,12 @@ MemoryInput open_memory(std::string_view bytes, const std::string& file) {
     throw MachineError(std::string("OpenImageIO cannot read ") + name_of(picture.format));
   OIIO::ImageSpec hints;
   hints.attribute("oiio:UnassociatedAlpha", 1);
-  if (!picture.input->open(file, picture.spec, hints))
+  if (!call_library(file, [&] { return picture.input->open(file, picture.spec, hints); }))
     throw InputError(file, "", first_line(picture.input->geterror()));
-  check_spec(picture.spec, file);
+  check_spec(picture, bytes.size(), file, limits);
+  if (picture.format == ImageFormat::openexr || picture.format == ImageFormat::tiff ||
+      picture.format == ImageFormat::jpeg || picture.format == ImageFormat::hdr)
+    remark_spec(picture, file, remarks);
   return picture;
 }
 

@@ -8,7 +8,6 @@
 #include <memory>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "base/error.h"
 #include "image/header.h"
@@ -28,20 +27,33 @@ struct MemoryInput {
   std::unique_ptr<OIIO::ImageInput> input;
 };
 
-/// Opens and checks: a format that is read, flat, its size and tiles within the limits of
-/// image/header.h, 1 to 64 channels. Alpha will come out straight. bytes must outlive the result.
+/// Opens and checks: a format that is read, flat, its size and tiles within the limits, no more
+/// pixels than the file can hold, 1 to 64 channels. Alpha will come out straight. bytes must
+/// outlive the result. Remarked: further pictures, and an orientation, which is not followed.
 /// Throws InputError naming `file`.
-MemoryInput open_memory(std::string_view bytes, const std::string& file);
+MemoryInput open_memory(std::string_view bytes, const std::string& file,
+                        const ImageLimits& limits = {}, Remarks* remarks = nullptr);
 
-/// Channels 0 .. n_channels - 1 of the picture as Sample, pixel by pixel. Throws InputError(file).
+/// Pixel by pixel, channel by channel.
 template <typename Sample>
-std::vector<Sample> decode(MemoryInput& picture, int n_channels, const std::string& file) {
+struct Samples {
+  std::unique_ptr<Sample[]> data;  // not a vector: zeros would touch memory before it is needed
+  std::size_t n_channels = 0;
+  const Sample* pixel(std::size_t p) const { return data.get() + p * n_channels; }
+};
+
+/// Channels 0 .. n_channels - 1 of the picture. Throws InputError(file).
+template <typename Sample>
+Samples<Sample> decode(MemoryInput& picture, int n_channels, const std::string& file) {
   const OIIO::TypeDesc type(OIIO::BaseTypeFromC<Sample>::value);
-  std::vector<Sample> samples(static_cast<std::size_t>(picture.spec.width) *
-                              static_cast<std::size_t>(picture.spec.height) *
-                              static_cast<std::size_t>(n_channels));
-  if (!picture.input->read_image(0, 0, 0, n_channels, type, samples.data()))
-    throw InputError(file, "pixels", first_line(picture.input->geterror()));
+  const auto n = static_cast<std::size_t>(n_channels);
+  const std::size_t n_pixels =
+      static_cast<std::size_t>(picture.spec.width) * static_cast<std::size_t>(picture.spec.height);
+  Samples<Sample> samples{std::unique_ptr<Sample[]>(new Sample[n_pixels * n]), n};
+  const bool is_read = call_library(file, [&] {
+    return picture.input->read_image(0, 0, 0, n_channels, type, samples.data.get());
+  });
+  if (!is_read) throw InputError(file, "pixels", first_line(picture.input->geterror()));
   return samples;
 }
 

@@ -16,7 +16,6 @@ namespace {
 
 constexpr int kWindow_px = 11;
 constexpr double kSigma_px = 1.5;
-constexpr double kC1 = (0.01 * 255) * (0.01 * 255), kC2 = (0.03 * 255) * (0.03 * 255);
 constexpr std::size_t kMoments = 5;  // a, b, a a, b b, a b
 
 using Row = std::vector<double>;
@@ -57,12 +56,13 @@ void filter_row(const double* a, const double* b, const std::vector<double>& win
   }
 }
 
-double ssim_at(const MomentRows& moments, std::size_t x) {
+double ssim_at(const MomentRows& moments, std::size_t x, double peak) {
+  const double c1 = (0.01 * peak) * (0.01 * peak), c2 = (0.03 * peak) * (0.03 * peak);
   const double mean_a = moments[0][x], mean_b = moments[1][x];
   const double var_a = moments[2][x] - mean_a * mean_a, var_b = moments[3][x] - mean_b * mean_b;
   const double covariance = moments[4][x] - mean_a * mean_b;
-  return (2 * mean_a * mean_b + kC1) * (2 * covariance + kC2) /
-         ((mean_a * mean_a + mean_b * mean_b + kC1) * (var_a + var_b + kC2));
+  return (2 * mean_a * mean_b + c1) * (2 * covariance + c2) /
+         ((mean_a * mean_a + mean_b * mean_b + c1) * (var_a + var_b + c2));
 }
 
 }  // namespace
@@ -76,7 +76,7 @@ Image<double> luminance(const ImageRgba8& image) {
   return out;
 }
 
-double mean_ssim(const Image<double>& a, const Image<double>& b) {
+double mean_ssim(const Image<double>& a, const Image<double>& b, double peak) {
   VIEWCELL_CHECK(a.width_px == b.width_px && a.height_px == b.height_px && !a.empty());
   const std::vector<double> across = make_window(a.width_px), down = make_window(a.height_px);
   const auto width = static_cast<std::size_t>(a.width_px);
@@ -101,7 +101,7 @@ double mean_ssim(const Image<double>& a, const Image<double>& b) {
         for (std::size_t x = 0; x < n_out; ++x) column_sums[m][x] += down[k] * from[x];
       }
     }
-    for (std::size_t x = 0; x < n_out; ++x) sum += ssim_at(column_sums, x);
+    for (std::size_t x = 0; x < n_out; ++x) sum += ssim_at(column_sums, x, peak);
   }
   return sum / static_cast<double>(n_out * (height - down.size() + 1));
 }

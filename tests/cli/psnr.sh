@@ -26,7 +26,8 @@ grep -q "48.131" "$log/out" || fail "an offset of one is not 48.131 dB: $(cat "$
 # JSON, alone on stdout when asked for there.
 expect 0 "$psnr" a.png b.png --json -
 head -c 1 "$log/out" | grep -q "{" || fail "stdout is not only JSON"
-has_keys "$log/out" psnr_db psnr_covered_db ssim snr_db rms max_abs width_px height_px
+has_keys "$log/out" psnr_db psnr_rgb_db psnr_covered_db psnr_rgb_covered_db ssim snr_db rms max_abs \
+  peak compared_as covered_px alpha_differs_px not_finite_px width_px height_px
 is max_abs 1
 expect 0 "$psnr" a.png b.png --json report.json -o table.txt
 [ ! -s "$log/out" ] && [ -s report.json ] && [ -s table.txt ] || fail "-o and --json"
@@ -43,6 +44,50 @@ got=0; "$psnr" a.png - <b.png >"$log/out" || got=$?
 expect 0 "$psnr" a.png b.png --fail-below 48
 expect 5 "$psnr" a.png b.png --fail-below 49
 grep -q "48.131" "$log/out" || fail "no table beside exit code 5"
+
+grep -q "PSNR of luminance: 1 of 1 pair below 49 dB" "$log/err" || fail "no verdict: $(cat "$log/err")"
+fault 2 "--judge" "$psnr" a.png b.png --judge rgb
+fault 2 "--judge" "$psnr" a.png b.png --fail-below 3 --judge red
+
+# Colours of one brightness: what luminance does not see stands beside it, and may be judged.
+ppm() { printf "P6 4 4 255\n"; for _ in {1..16}; do printf "$1"; done; }
+ppm '\xff\0\0' >red.ppm
+ppm '\0\x82\0' >green.ppm
+expect 0 "$psnr" red.ppm green.ppm --json - --fail-below 60
+holds "$(key psnr_db) > 70 && $(key psnr_rgb_db) > 3.7 && $(key psnr_rgb_db) < 3.8"
+expect 5 "$psnr" red.ppm green.ppm --fail-below 60 --judge rgb
+
+# 16 bits, 100 of 65535 apart; linear light, unclipped; two depths; numbers that are none.
+gray16() { printf 'P5 4 4 65535\n'; for _ in {1..16}; do printf "$1"; done; }
+gray16 '\x40\0' >c16.pgm
+gray16 '\x40\x64' >d16.pgm
+expect 0 "$psnr" c16.pgm d16.pgm --json -
+holds "$(key psnr_db) > 56.32 && $(key psnr_db) < 56.34"
+is peak 65535
+linear() { printf 'Pf\n4 4\n-1.0\n'; for _ in {1..16}; do printf "$1"; done; }
+linear '\0\0\0\x40' >two.pfm    # 2
+linear '\0\0\x40\x40' >three.pfm  # 3
+linear '\0\0\xc0\x7f' >nan.pfm
+expect 0 "$psnr" two.pfm three.pfm --json -
+holds "$(key psnr_db) == 0"
+expect 0 "$psnr" two.pfm three.pfm --json - --peak 10
+is psnr_db 20
+expect 0 "$psnr" c16.pgm two.pfm --json -
+says "$log/out" '.compared_as == "[0, 1]"' && grep -q "compared as reals" "$log/err" || fail "two depths"
+fault 1 "nan.pfm: no pixel is finite" "$psnr" two.pfm nan.pfm
+{ head -c -4 two.pfm; tail -c 4 nan.pfm; } >hole.pfm
+expect 0 "$psnr" two.pfm hole.pfm --json -
+is not_finite_px 1
+grep -q "hole.pfm: pixels that are not finite in one picture or both, left out (1)" "$log/err" || fail "no word of holes"
+expect 5 "$psnr" two.pfm hole.pfm --fail-below 3
+fault 2 "--peak" "$psnr" two.pfm three.pfm --peak nan
+
+# Headers that say more than their files hold, and the limit.
+printf 'P6 16384 16384 255\nabc' >bomb.ppm
+fault 1 "bomb.ppm: header: 16384 x 16384 pixels in" "$psnr" bomb.ppm a.png
+fault 1 "more than 299 in all (--max-pixels)" "$psnr" a.png b.png --max-pixels 299
+expect 0 "$psnr" a.png b.png --max-pixels 300
+fault 2 "--max-pixels" "$psnr" a.png b.png --max-pixels 0
 
 # Folders.
 mkdir A B

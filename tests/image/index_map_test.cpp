@@ -199,8 +199,8 @@ TEST(IndexMapFile, PromisesThatTheFileCannotHoldAreRefused) {
       << error_of_map(folder / "a.tif");
 }
 
-// A byte of LZW stands for not quite 4096: a header that promises a little more is refused for it,
-// one that promises less is read, and found to be cut.
+// A byte of deflate stands for at most 1032: a header that promises a little more is refused for
+// it, one that promises less is read, and found to be cut.
 TEST(IndexMapFile, PromisesAreHeldAgainstTheFile) {
   const TemporaryFolder folder;
   constexpr int kWidth = 40;
@@ -208,7 +208,7 @@ TEST(IndexMapFile, PromisesAreHeldAgainstTheFile) {
   const std::string tiff = read_file(folder / "a.tif");
   for (const double share : {0.99, 1.01}) {
     std::string bytes = tiff;
-    const auto height = static_cast<std::uint16_t>(share * 4096 * double(tiff.size()) / 4 / kWidth);
+    const auto height = static_cast<std::uint16_t>(share * 1032 * double(tiff.size()) / 4 / kWidth);
     std::memcpy(bytes.data() + 10 + 12 + 8, &height, 2);  // the second tag, 257
     put_bytes(folder / "a.tif", bytes);
     const std::string error = error_of_map(folder / "a.tif");

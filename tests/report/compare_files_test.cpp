@@ -44,7 +44,7 @@ TEST(CompareFiles, PairWithDifferencePicture) {
   write_png(folder / "a.png", gray(100));
   write_png(folder / "b.png", gray(103));
   const ImageDistance d =
-      compare_files(folder / "a.png", folder / "b.png", {{}, folder / "d.png", 10});
+      compare_files(folder / "a.png", folder / "b.png", {{}, folder / "d.png", 10, {}}).distance;
   EXPECT_DOUBLE_EQ(d.mse, 9);
   EXPECT_EQ(read_image_rgba8(folder / "d.png").pixels[0], (Rgba8{30, 30, 30, 255}));
 }
@@ -99,7 +99,7 @@ TEST(CompareFolders, AMissingPartnerIsAnErrorEitherWay) {
 TEST(CompareFolders, DifferencePicturesOfEveryPair) {
   const TemporaryFolder folder;
   write_folders(folder, 3);
-  compare_folders(folder / "a", folder / "b", {{}, folder / "d", 4}, 2);
+  compare_folders(folder / "a", folder / "b", {{}, folder / "d", 4, {}}, 2);
   EXPECT_EQ(read_image_rgba8(folder / "d/frame0.png").pixels[0], (Rgba8{0, 0, 0, 255}));
   EXPECT_EQ(read_image_rgba8(folder / "d/frame2.png").pixels[0], (Rgba8{8, 8, 8, 255}));
 }
@@ -108,8 +108,10 @@ TEST(CompareReport, KeysAreTheContracts) {
   const Json pair = report_pair(compare_images(gray(100), gray(101)));
   std::vector<std::string> keys;
   for (const auto& [key, value] : pair.items()) keys.push_back(key);
-  EXPECT_EQ(keys, (std::vector<std::string>{"psnr_db", "psnr_covered_db", "ssim", "snr_db", "rms",
-                                            "max_abs", "width_px", "height_px"}));
+  EXPECT_EQ(keys, (std::vector<std::string>{
+                      "psnr_db", "psnr_rgb_db", "psnr_covered_db", "psnr_rgb_covered_db", "ssim",
+                      "snr_db", "rms", "max_abs", "peak", "compared_as", "covered_px",
+                      "alpha_differs_px", "not_finite_px", "width_px", "height_px"}));
   EXPECT_NEAR(pair["psnr_db"].get<double>(), 48.1308, 1e-4);
   EXPECT_TRUE(report_pair(compare_images(gray(1), gray(2), {.ssim = false}))["ssim"].is_null() ||
               format_json(report_pair(compare_images(gray(1), gray(2), {.ssim = false})))
@@ -118,9 +120,9 @@ TEST(CompareReport, KeysAreTheContracts) {
 
 TEST(CompareReport, SummaryHasTheMeanOfDecibelsAndTheDecibelsOfTheMean) {
   const std::vector<NamedDistance> pairs = {
-      {"a", compare_images(gray(100), gray(101))},
-      {"b", compare_images(gray(100), gray(103))},
-      {"c", compare_images(gray(100, 0), gray(150, 0))}};  // nothing covered
+      {"a", compare_images(gray(100), gray(101)), {}, {}},
+      {"b", compare_images(gray(100), gray(103)), {}, {}},
+      {"c", compare_images(gray(100, 0), gray(150, 0)), {}, {}}};  // nothing covered
   const Json report = report_pairs(pairs);
   ASSERT_EQ(report["pairs"].size(), 3u);
   EXPECT_EQ(report["pairs"][1]["name"], "b");
@@ -138,9 +140,40 @@ TEST(CompareReport, SummaryHasTheMeanOfDecibelsAndTheDecibelsOfTheMean) {
   EXPECT_EQ(covered["max"].get<double>(), 100);
 }
 
+TEST(CompareReport, VerdictSaysWhatItJudges) {
+  const ImageDistance near_in_luminance =
+      compare_images({8, 8, {200, 0, 0, 255}}, {8, 8, {0, 102, 0, 255}});
+  std::vector<NamedDistance> pairs = {{"a", near_in_luminance, {}, {}},
+                                      {"b", compare_images(gray(7), gray(7)), {}, {}}};
+  Verdict verdict = judge(pairs, JudgedPsnr::luminance, 37.5);
+  EXPECT_EQ(verdict.n_below, 0u);
+  verdict = judge(pairs, JudgedPsnr::rgb, 37.5);
+  EXPECT_EQ(verdict.n_below, 1u);
+  EXPECT_TRUE(
+      verdict.words.starts_with("PSNR of R, G and B: 1 of 2 pairs below 37.5 dB; the least"))
+      << verdict.words;
+  EXPECT_TRUE(verdict.words.ends_with(", a")) << verdict.words;
+  // A picture with holes passes no threshold.
+  pairs[1].distance.n_not_finite = pairs[1].distance.n_not_finite_in_one = 1;
+  EXPECT_EQ(judge(pairs, JudgedPsnr::luminance, 0).n_below, 1u);
+  EXPECT_EQ(judge(pairs, JudgedPsnr::luminance, 0).words.find("a with"), std::string::npos);
+}
+
+TEST(CompareFiles, DepthsThatDifferAreSaid) {
+  const TemporaryFolder folder;
+  write_png(folder / "a.png", gray(100));
+  write_file(folder / "b.pfm", "PF\n12 12\n-1.0\n" + std::string(12 * 12 * 12, '\0'));
+  const NamedDistance pair = compare_files(folder / "a.png", folder / "b.pfm");
+  EXPECT_EQ(pair.distance.compared_as, ComparedAs::unit);
+  EXPECT_NEAR(pair.distance.rms, 100 / 255.0, 1e-9);
+  ASSERT_EQ(pair.of_tested.size(), 1u);
+  EXPECT_TRUE(pair.of_tested[0].what.starts_with("linear beside a reference of 8 bits"));
+}
+
 TEST(CompareReport, TableIsAligned) {
-  const std::vector<NamedDistance> pairs = {{"a.png", compare_images(gray(100), gray(101))},
-                                            {"longer name.png", compare_images(gray(7), gray(7))}};
+  const std::vector<NamedDistance> pairs = {
+      {"a.png", compare_images(gray(100), gray(101)), {}, {}},
+      {"longer name.png", compare_images(gray(7), gray(7)), {}, {}}};
   const std::string table = format_table(pairs);
   EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 6);  // heading, 2, mean, min, max
   const std::size_t width = table.find('\n');

@@ -2,7 +2,7 @@
 #include <algorithm>
 
 #include "base/error.h"
-#include "common/tool.h"
+#include "common/picture_input.h"
 #include "image/io.h"
 #include "report/contact_sheet.h"
 
@@ -15,6 +15,7 @@ struct Arguments {
   std::size_t n_columns = 4;
   bool trim = false;
   int n_bits = 8;
+  std::optional<std::size_t> max_pixels;
   SheetOptions sheet;
 };
 
@@ -39,15 +40,26 @@ void declare(Tool& tool, Arguments& arguments) {
                   "of a colour channel to keep: 5 nearly halves the file")
       .show_default()
       .check(in_range(1, 8));
+  declare_max_pixels(tool, &arguments.max_pixels);
   tool.add_output("PNG to write");
 }
 
-std::vector<ImageRgba8> read_pictures(const std::vector<std::string>& files) {
+ImageRgba8 read_picture(const Tool& tool, const std::string& file,
+                        const std::optional<std::size_t>& max_pixels) {
+  if (file.empty()) return {};
+  Remarks remarks;
+  ImageRgba8 picture = read_image_rgba8(file, {{max_pixels}, &remarks});
+  tool.remark(file, remarks);
+  return picture;
+}
+
+std::vector<ImageRgba8> read_pictures(const Tool& tool, const Arguments& arguments) {
+  const std::vector<std::string>& files = arguments.pictures;
   std::vector<ImageRgba8> pictures;
   const ImageRgba8* first = nullptr;
   pictures.reserve(files.size());
   for (const std::string& file : files) {
-    pictures.push_back(file.empty() ? ImageRgba8() : read_image_rgba8(file));
+    pictures.push_back(read_picture(tool, file, arguments.max_pixels));
     const ImageRgba8& picture = pictures.back();
     if (picture.empty()) continue;
     if (first == nullptr) first = &picture;
@@ -70,7 +82,7 @@ void check_arguments(const Tool& tool, const Arguments& arguments) {
 }
 
 int run(const Tool& tool, const Arguments& arguments) {
-  std::vector<ImageRgba8> pictures = read_pictures(arguments.pictures);
+  std::vector<ImageRgba8> pictures = read_pictures(tool, arguments);
   if (arguments.trim) trim_alike(pictures);
   const std::size_t n_columns = std::min(arguments.n_columns, pictures.size());
   std::vector<std::string> columns(n_columns);

@@ -3,7 +3,7 @@
 #include <filesystem>
 
 #include "base/error.h"
-#include "formats/texture_file.h"
+#include "common/picture_input.h"
 #include "gl/context.h"
 
 namespace viewcell {
@@ -41,6 +41,7 @@ void declare_surface(Command& command, MeshshotArguments& o) {
       .reads("the indexing map that is read");
   command.add_flag("--flip-v", &o.style.flip_v,
                    "v = 0 is the texture's top row: for files whose coordinates run that way");
+  declare_max_pixels(command, &o.max_pixels);
 }
 
 void declare_pictures(Command& command, MeshshotArguments& o) {

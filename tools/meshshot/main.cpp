@@ -4,9 +4,9 @@
 
 #include "base/error.h"
 #include "common/mesh_input.h"
+#include "common/picture_input.h"
 #include "common/provenance.h"
 #include "common/stopwatch.h"
-#include "formats/texture_file.h"
 #include "gl/context.h"
 #include "image/index_map.h"
 #include "meshshot/arguments.h"
@@ -35,16 +35,19 @@ const T* address_of(const std::optional<T>& value) {
   return value ? &*value : nullptr;
 }
 
-Textures read_textures(MeshshotArguments& o, const TriMesh& mesh) {
+Textures read_textures(const Tool& tool, MeshshotArguments& o, const TriMesh& mesh) {
   Textures textures;
   if (o.texture.empty() && o.normal_map.empty()) return textures;
   if (mesh.texcoords.empty())
     throw InputError(o.mesh_file, "",
                      std::string("has no texture coordinates, which --") +
                          (o.texture.empty() ? "normal-map" : "texture") + " needs");
-  if (!o.texture.empty()) textures.color = read_texture(o.texture, &o.texture_hash);
-  if (!o.normal_map.empty()) textures.normal_map = read_texture(o.normal_map, &o.normal_map_hash);
-  if (!o.map_file.empty()) textures.index_map = read_index_map(o.map_file, &o.map_hash);
+  if (!o.texture.empty())
+    textures.color = read_texture_input(tool, o.texture, o.max_pixels, &o.texture_hash);
+  if (!o.normal_map.empty())
+    textures.normal_map = read_texture_input(tool, o.normal_map, o.max_pixels, &o.normal_map_hash);
+  if (!o.map_file.empty())
+    textures.index_map = read_index_map(o.map_file, &o.map_hash, nullptr, {o.max_pixels});
   return textures;
 }
 
@@ -65,7 +68,7 @@ int run(const Tool& tool, MeshshotArguments& o) {
   check_shot_folder(o.shots.folder, o.shots.n_views);
   const TriMesh mesh = read_mesh_input(tool, o.mesh_file, &o.mesh_hash);
   const MeshFrame frame = choose_frame(tool, o, mesh);
-  const Textures textures = read_textures(o, mesh);
+  const Textures textures = read_textures(tool, o, mesh);
   const double read_s = watch.lap_s();
   const GlContext context(parse_gl_engine(o.gl));
   const MeshRenderer renderer(context.gl(), mesh, frame, address_of(textures.color), o.style,

@@ -10,7 +10,7 @@
 namespace viewcell {
 
 struct PsnrArguments {
-  std::string reference, tested, inside;
+  std::string reference, tested, inside, judge = "luminance";
   bool index_maps = false;
   double fail_below_db = -std::numeric_limits<double>::infinity();
   CompareFilesOptions options;

@@ -1,5 +1,6 @@
 // psnr: how far pictures are from a reference.
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <string>
 
@@ -17,8 +18,19 @@ std::vector<NamedDistance> compare(const Tool& tool, const PsnrArguments& argume
   if (folders)
     return compare_folders(arguments.reference, arguments.tested, arguments.options,
                            tool.common().n_threads, tool.progress("pair"));
-  return {
-      {arguments.tested, compare_files(arguments.reference, arguments.tested, arguments.options)}};
+  return {compare_files(arguments.reference, arguments.tested, arguments.options)};
+}
+
+// Of a folder's pictures, the same remark once.
+void remark(const Tool& tool, const PsnrArguments& arguments,
+            const std::vector<NamedDistance>& pairs) {
+  Remarks of_reference, of_tested;
+  for (const NamedDistance& pair : pairs) {
+    for (const Remark& r : pair.of_reference) add_remark(&of_reference, r.what, r.count);
+    for (const Remark& r : pair.of_tested) add_remark(&of_tested, r.what, r.count);
+  }
+  tool.remark(arguments.reference, of_reference);
+  tool.remark(arguments.tested, of_tested);
 }
 
 int run(const Tool& tool, const PsnrArguments& arguments) {
@@ -34,16 +46,20 @@ int run(const Tool& tool, const PsnrArguments& arguments) {
   }
   const std::vector<NamedDistance> pairs = compare(tool, arguments, folders);
 
+  remark(tool, arguments, pairs);
   const CommonOptions& common = tool.common();
   const std::string table_file = common.output.empty() ? "-" : common.output;
   const bool stdout_is_json = common.json_file == "-";
   if (!(stdout_is_json && table_file == "-")) write_file(table_file, format_table(pairs));
   tool.report(folders ? report_pairs(pairs) : report_pair(pairs[0].distance));
 
-  const bool any_below = std::any_of(pairs.begin(), pairs.end(), [&](const NamedDistance& pair) {
-    return pair.distance.psnr_db < arguments.fail_below_db;
-  });
-  return any_below ? kOverThreshold : 0;
+  if (std::isinf(arguments.fail_below_db)) return 0;  // not asked for
+  const auto judged = static_cast<JudgedPsnr>(
+      std::find(judged_names().begin(), judged_names().end(), arguments.judge) -
+      judged_names().begin());
+  const Verdict verdict = judge(pairs, judged, arguments.fail_below_db);
+  tool.say(verdict.words);
+  return verdict.n_below > 0 ? kOverThreshold : 0;
 }
 
 }  // namespace
@@ -52,9 +68,12 @@ int run(const Tool& tool, const PsnrArguments& arguments) {
 int main(int argc, char** argv) {
   viewcell::Tool tool(
       "psnr",
-      "Measures how far pictures are from a reference: PSNR of luminance over the "
-      "frame and over covered pixels (alpha above 0 in either), SSIM, SNR (power of "
-      "the tested picture over power of the error), RMS and largest difference.",
+      "Measures how far pictures are from a reference, at their own depth: PSNR of luminance and "
+      "of "
+      "R, G and B together, over the frame and over covered pixels (alpha above 0 in either), "
+      "SSIM, "
+      "SNR (power of the tested picture over power of the error), RMS and largest difference. "
+      "Pictures of two depths are compared as reals in [0, 1].",
       "psnr frustum/0001.png hybrid/0001.png --diff difference.png\n"
       "  psnr frustum/ hybrid/ --fail-below 37 --json distances.json\n"
       "  psnr before.exr after.exr --index-maps --inside head.obj");

@@ -5,7 +5,7 @@
 #include <tuple>
 
 #include "base/error.h"
-#include "formats/texture_file.h"
+#include "common/picture_input.h"
 
 namespace viewcell {
 namespace {
@@ -80,6 +80,7 @@ void declare_engine(Command& command, TexadaptArguments& a) {
   command.add_flag("--no-pack", &a.one_by_one, "one adaptation after another, on one thread");
   command.add_flag("--allow-overlap", &a.allows_overlap,
                    "go on where two charts lie on the same texels; these follow one of them");
+  declare_max_pixels(command, &a.max_pixels);
 }
 
 std::vector<std::size_t> parse_levels(const std::string& list) {

@@ -32,6 +32,7 @@ struct TexadaptArguments {
   LevelFormat format = LevelFormat::png;
   AdaptLevelsOptions options;
   bool allows_overlap = false;
+  std::optional<std::size_t> max_pixels;  ///< of pictures that are read
 
   /// The name of an output at a level: with --levels "head.png" becomes "head-500.png".
   std::string name_at(const std::string& file, std::size_t level) const;

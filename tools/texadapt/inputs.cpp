@@ -2,7 +2,7 @@
 
 #include "adapt/adapt_file.h"
 #include "base/error.h"
-#include "formats/texture_file.h"
+#include "common/picture_input.h"
 #include "image/index_map.h"
 #include "pm/pm_file.h"
 #include "texadapt/level_writer.h"
@@ -50,16 +50,19 @@ void leave_tile(TexadaptInputs& in, ChartFindings& findings, const TexadaptArgum
 
 }  // namespace
 
-TexadaptInputs read_inputs(TexadaptArguments& a) {
+TexadaptInputs read_inputs(const Tool& tool, TexadaptArguments& a) {
+  const auto read = [&](const std::string& name) {
+    return read_texture_input(tool, name, a.max_pixels);
+  };
   TexadaptInputs in;
   in.record = read_pm(a.pm);
   if (in.record.texcoords.empty())
     throw InputError(a.pm, "", "has no texture coordinates, so no texture can follow it");
-  in.texture = read_texture(a.texture);
-  for (const FurtherTexture& f : a.further) in.further.push_back(read_texture(f.from));
-  if (!a.normal_map.from.empty()) in.normal_map = read_texture(a.normal_map.from);
+  in.texture = read(a.texture);
+  for (const FurtherTexture& f : a.further) in.further.push_back(read(f.from));
+  if (!a.normal_map.from.empty()) in.normal_map = read(a.normal_map.from);
   std::string label;
-  if (!a.start.empty()) a.options.start = read_index_map(a.start, nullptr, &label);
+  if (!a.start.empty()) a.options.start = read_index_map(a.start, nullptr, &label, {a.max_pixels});
   settle_size(a.options, in.texture);
   in.finest = extract_finest(in.record);
   ChartFindings findings = check_charts(in.finest, a.options.width_px, a.options.height_px);

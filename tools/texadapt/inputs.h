@@ -24,7 +24,7 @@ struct TexadaptInputs {
 /// Reads all but the log, and sets the arguments' start and the size of the map, where it is not
 /// given. Throws InputError for a mesh without texture coordinates, or with charts that no texture
 /// can follow.
-TexadaptInputs read_inputs(TexadaptArguments& arguments);
+TexadaptInputs read_inputs(const Tool& tool, TexadaptArguments& arguments);
 
 /// The log that is to be replayed, or a fresh one, which is written where that was asked for.
 AdaptationLog get_log(const Tool& tool, const TexadaptArguments& arguments,

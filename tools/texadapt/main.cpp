@@ -7,7 +7,7 @@ namespace viewcell {
 namespace {
 
 int run(const Tool& tool, TexadaptArguments& a) {
-  const TexadaptInputs in = read_inputs(a);
+  const TexadaptInputs in = read_inputs(tool, a);
   const Json report =
       a.engine == AdaptEngine::rebake ? rebake_levels(tool, a, in) : adapt_levels(tool, a, in);
   tool.say(in.charts);

@@ -4,7 +4,7 @@
 #include <charconv>
 
 #include "base/error.h"
-#include "image/header.h"
+#include "common/picture_input.h"
 
 namespace viewcell {
 namespace {
@@ -59,6 +59,7 @@ void declare_arguments(Tool& tool, UvpatchArguments& a) {
       .check(in_range(0, 1000));
   tool.add_option("--texture", &a.texture, "picture to copy instead of a checker board")
       .reads("the texture that is read");
+  declare_max_pixels(tool, &a.max_pixels);
   number("--texture-size", a.size_px, kMaxImageSidePx, "pixels a side of the checker board");
   number("--squares", a.n_squares, kMaxImageSidePx, "squares a side of the checker board");
   tool.add_output("OBJ to write, MTL and picture beside it (-: the OBJ alone)");

@@ -1,6 +1,8 @@
 // What is typed at uvpatch.
 #pragma once
 
+#include <cstddef>
+#include <optional>
 #include <string>
 
 #include "common/tool.h"
@@ -10,6 +12,7 @@ namespace viewcell {
 
 struct UvpatchArguments {
   std::string mesh, faces, up = "z", distort = "none", boundary = "circle", texture;
+  std::optional<std::size_t> max_pixels;  ///< of the texture
   int size_px = 1024, n_squares = 16;
   TexturedPatchOptions patch;  ///< after finish_arguments
 };

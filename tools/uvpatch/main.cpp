@@ -53,8 +53,9 @@ int run(Tool& tool, const UvpatchArguments& a) {
   std::string picture, extension = ".png";
   if (!a.texture.empty()) {
     picture = read_file(a.texture);
-    decode_image_rgba8(picture, a.texture);  // throws when it is no picture
-    extension = extension_of(check_image_header(picture, a.texture));
+    const ReadImageOptions options{{a.max_pixels}, nullptr};
+    decode_image_rgba8(picture, a.texture, options);  // throws when it is no picture
+    extension = extension_of(check_image_header(picture, a.texture, options.limits));
     register_beside(tool, extension);
   }
   std::string hash;
