@@ -10,7 +10,7 @@ set(VIEWCELL_ROOMS
   "uv: base image mesh"
   "pm: base image mesh"
   "adapt: base image mesh gl uv pm"
-  "report: base image mesh formats"
+  "report: base image mesh formats uv"
   "scene: base mesh formats"
   "cells: base mesh report scene"
   "park: base mesh formats pm scene cells"
@@ -25,7 +25,7 @@ set(VIEWCELL_ROOMS
 # time: a program that calls none of the former does not load its 260 libraries, 0.2 s of a start
 # (tests/cli/libraries.sh).
 set(VIEWCELL_NEEDS_OPENIMAGEIO "^#include [<\"](OpenImageIO/|image/(capture_file|deep_metrics|\
-exr_layout|header|index_map|io|library|memory_input)\\.h|formats/texture(_file|d_obj)\\.h)")
+exr_layout|header|index_map|io|library|memory_input|picture_size)\\.h|formats/texture(_file|_list|d_obj)\\.h)")
 function(viewcell_group_sources TARGET)
   set(n 0)
   foreach(source ${ARGN})

@@ -73,6 +73,10 @@ void remark_spec(MemoryInput& picture, const std::string& file, Remarks* remarks
   if (orientation > 1 && orientation <= 8)
     add_remark(remarks, "orientation " + std::to_string(orientation) +
                             " (turned or mirrored for display), not followed: rows are as stored");
+  for (const char* key : {"jpeg:ColorSpace", "tiff:ColorSpace"})
+    if (const std::string space = picture.spec.get_string_attribute(key);
+        space == "CMYK" || space == "YCbCrK")
+      add_remark(remarks, space + ", taken as RGB without its profile");
   if (remarks == nullptr) return;
   int n = picture.spec.get_int_attribute("oiio:subimages", 1);
   if (picture.format == ImageFormat::tiff) {  // does not count its pages

@@ -190,6 +190,12 @@ over_input "-o is the mesh that is read" subdivide patch.obj --times 1 -o folder
 over_output "-o and --json are one file" subdivide patch.obj --times 1 -o x.obj --json x.obj
 nowhere subdivide patch.obj --times 1 -o no/x.obj
 
+# --- meshinfo ---
+over_input "-o is mesh ball.off, which is read" meshinfo ball.off -o hard.off
+over_input "--json is mesh patch.obj" meshinfo ball.off patch.obj --json patch.obj
+over_output "-o and --json are one file" meshinfo ball.off -o x --json x
+nowhere meshinfo ball.off -o no/x
+
 # --- contactsheet, plot, psnr ---
 over_input "-o is picture A/1.png, which is read" contactsheet patch.png A/1.png -o ./A/1.png
 over_input "--json is picture patch.png" contactsheet patch.png A/1.png -o x.png --json patch.png
