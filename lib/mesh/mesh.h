@@ -33,6 +33,7 @@ struct TriMesh {
   std::vector<glm::vec2> texcoords;     ///< per corner
   std::vector<std::int32_t> materials;  ///< per triangle: index into material_names; or empty
   std::vector<std::string> material_names;
+  std::vector<std::string> material_libraries;  ///< as an OBJ's lines "mtllib" name them; not read
   /// A vertex is at offset + position. Not zero where floats are too coarse for the coordinates
   /// themselves: those of maps, far from the origin.
   glm::dvec3 offset{0};

@@ -213,6 +213,8 @@ Subdivision subdivide(const TriMesh& mesh, const SubdivideOptions& options,
   Layer surface = split_times(welded.layer, options.n_times, position_rule(options));
   out.mesh.positions.assign(surface.values.begin(), surface.values.end());
   out.mesh.triangles = std::move(surface.triangles);
+  out.mesh.offset = mesh.offset;
+  out.mesh.material_libraries = mesh.material_libraries;
   if (!mesh.normals.empty() || !mesh.corner_normals.empty())
     out.mesh.normals = make_vertex_normals(out.mesh);
   if (!mesh.materials.empty()) {

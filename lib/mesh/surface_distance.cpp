@@ -6,9 +6,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "base/error.h"
 #include "mesh/closest_point.h"
+#include "mesh/offset.h"
 #include "mesh/surface_samples.h"
 
 namespace viewcell {
@@ -45,16 +47,22 @@ struct Direction {
   std::vector<Block> blocks;
   std::vector<double> vertex_distances, face_distances;  // in order of the samples
 
-  Direction(const TriMesh& from_mesh, const TriMesh& to, const Box& domain,
+  Direction(const TriMesh& from_mesh, SurfaceSamples planned, const TriMesh& to, const Box& domain,
             const DistanceOptions& options)
       : from(from_mesh),
-        samples(plan_surface_samples(from, options.n_samples, options.seed)),
+        samples(std::move(planned)),
         target(to, domain, options.n_threads),
         vertex_distances(samples.vertices.size()),
         face_distances(samples.n_face_samples) {
     add_blocks(kVertices, samples.vertices.size());
     add_blocks(kEdges, samples.n_edge_samples());
     add_blocks(kFaces, samples.n_face_samples);
+  }
+
+  // What mean and percentiles are over.
+  Kind main_kind() const { return samples.n_face_samples > 0 ? kFaces : kVertices; }
+  const std::vector<double>& main_distances() const {
+    return main_kind() == kFaces ? face_distances : vertex_distances;
   }
 
   void add_blocks(Kind kind, std::size_t n) {
@@ -87,17 +95,14 @@ void measure_block(Direction& direction, Block& block) {
   }
 }
 
-void measure(Direction& forward, Direction& backward, int n_threads, const Progress& progress) {
-  const std::size_t n_forward = forward.blocks.size();
+void measure(std::initializer_list<Direction*> directions, int n_threads,
+             const Progress& progress) {
+  std::vector<std::pair<Direction*, Block*>> blocks;
+  for (Direction* direction : directions)
+    for (Block& block : direction->blocks) blocks.emplace_back(direction, &block);
   parallel_for(
-      n_forward + backward.blocks.size(), n_threads,
-      [&](std::size_t i) {
-        if (i < n_forward)
-          measure_block(forward, forward.blocks[i]);
-        else
-          measure_block(backward, backward.blocks[i - n_forward]);
-      },
-      progress);
+      blocks.size(), n_threads,
+      [&](std::size_t i) { measure_block(*blocks[i].first, *blocks[i].second); }, progress);
 }
 
 // How many samples of each kind Metro 4 takes when it is asked for n: every vertex; of what is
@@ -141,10 +146,11 @@ OneSidedDistance summarise(const Direction& direction) {
       result.worst = block.worst;
   }
   result.max = result.worst.distance;
-  result.mean = sums[kFaces].mean();
-  result.rms = std::sqrt(sums[kFaces].mean_square());
-  set_pooled(result, sums, direction.samples);
-  std::vector<double> distances = direction.face_distances;
+  const Sums& over = sums[direction.main_kind()];
+  result.mean = result.mean_pooled = over.mean();
+  result.rms = result.rms_pooled = std::sqrt(over.mean_square());
+  if (direction.main_kind() == kFaces) set_pooled(result, sums, direction.samples);
+  std::vector<double> distances = direction.main_distances();
   result.p50 = percentile(distances, 0.50);
   result.p95 = percentile(distances, 0.95);
   result.p99 = percentile(distances, 0.99);
@@ -172,13 +178,20 @@ std::vector<double> by_vertex(const Direction& direction) {
   return out;
 }
 
-Box surface_box(const TriMesh& mesh) {
+// Of a point cloud, all points.
+Box box_of(const TriMesh& mesh) {
+  if (mesh.triangles.empty()) return bounding_box(mesh);
   Box box;
   for (const Triangle& t : mesh.triangles)
     for (const std::uint32_t v : t) box.add(glm::dvec3(mesh.positions[v]));
   return box;
 }
 
+Box join(const Box& a, const Box& b) {
+  return {glm::min(a.lo, b.lo), glm::max(a.hi, b.hi)};
+}
+
+// Places: less the origin, times the factor.
 void change_units(OneSidedDistance& side, const glm::dvec3& origin, double factor) {
   for (double* x : {&side.max, &side.mean, &side.rms, &side.p50, &side.p95, &side.p99,
                     &side.mean_pooled, &side.rms_pooled, &side.worst.distance})
@@ -192,22 +205,60 @@ double unit_cube_factor(const Box& box) {
   return 1 / std::max({size.x, size.y, size.z});
 }
 
-// most: where the last bin ends, in the units of the distances.
-void add_histograms(const Direction& forward, const Direction& backward, double most,
-                    std::size_t n_bins, SurfaceDistance& result) {
+// Two meshes about one offset: that of the smaller, whose coordinates are the finer. The other is
+// copied where it must move.
+struct OneFrame {
+  TriMesh copy;
+  const TriMesh* a;
+  const TriMesh* b;
+
+  OneFrame(const OneFrame&) = delete;
+  OneFrame(const TriMesh& first, const TriMesh& second) : a(&first), b(&second) {
+    if (first.offset == second.offset) return;
+    const auto extent = [](const TriMesh& mesh) { return glm::length(box_of(mesh).size()); };
+    const TriMesh*& moved = extent(first) < extent(second) ? b : a;
+    const glm::dvec3 offset = (moved == a ? b : a)->offset;
+    copy.positions = moved->positions;
+    copy.triangles = moved->triangles;
+    copy.offset = moved->offset;
+    change_offset(copy, offset);
+    moved = &copy;
+  }
+};
+
+// backward: null where there is none.
+void add_histograms(const Direction& forward, const Direction* backward, const Box& unit_box,
+                    const DistanceOptions& options, SurfaceDistance& result) {
+  if (options.n_bins == 0) return;
+  const double asked =
+      options.histogram_most / (options.unit_cube ? unit_cube_factor(unit_box) : 1);
+  const double most = asked > 0 ? asked : result.symmetric().max;
   result.histogram_most = most;
-  result.forward.histogram = count_bins(forward.face_distances, most, n_bins);
-  result.backward.histogram = count_bins(backward.face_distances, most, n_bins);
+  result.forward.histogram = count_bins(forward.main_distances(), most, options.n_bins);
+  if (backward)
+    result.backward.histogram = count_bins(backward->main_distances(), most, options.n_bins);
 }
 
-void change_to_unit_cube(SurfaceDistance& distance, const Box& box) {
-  const double factor = unit_cube_factor(box);
-  change_units(distance.forward, box.lo, factor);
-  change_units(distance.backward, box.lo, factor);
+// To the units asked for; places are about the offset before.
+void finish_units(SurfaceDistance& distance, const Box& unit_box, const glm::dvec3& offset,
+                  bool unit_cube) {
+  const double factor = unit_cube ? unit_cube_factor(unit_box) : 1;
+  const glm::dvec3 origin = unit_cube ? unit_box.lo : -offset;
+  change_units(distance.forward, origin, factor);
+  change_units(distance.backward, origin, factor);
   for (double& d : distance.vertex_distance) d *= factor;
   distance.bbox_diagonal *= factor;
   distance.histogram_most *= factor;
   distance.units_per_model_unit = factor;
+}
+
+SurfaceSamples plan_points(const TriMesh& cloud) {
+  SurfaceSamples out;
+  out.vertices.resize(cloud.positions.size());
+  std::iota(out.vertices.begin(), out.vertices.end(), 0u);
+  out.edge_starts = {0};
+  out.area_before = {0};
+  return out;
 }
 
 }  // namespace
@@ -217,24 +268,44 @@ SurfaceDistance::Symmetric SurfaceDistance::symmetric() const {
           std::max(forward.rms, backward.rms)};
 }
 
-SurfaceDistance measure_surface_distance(const TriMesh& a, const TriMesh& b,
+SurfaceDistance measure_surface_distance(const TriMesh& first, const TriMesh& second,
                                          const DistanceOptions& options, const Progress& progress) {
-  const Box box = surface_box(a), other = surface_box(b);
-  const Box both{glm::min(box.lo, other.lo), glm::max(box.hi, other.hi)};
-  Direction forward(a, b, both, options), backward(b, a, both, options);
-  measure(forward, backward, options.n_threads, progress);
+  const OneFrame frame(first, second);
+  const TriMesh &a = *frame.a, &b = *frame.b;
+  const Box box = box_of(a), both = join(box, box_of(b));
+  const auto plan = [&](const TriMesh& mesh) {
+    return plan_surface_samples(mesh, options.n_samples, options.seed);
+  };
+  Direction forward(a, plan(a), b, both, options), backward(b, plan(b), a, both, options);
+  measure({&forward, &backward}, options.n_threads, progress);
 
   SurfaceDistance result;
   result.forward = summarise(forward);
   result.backward = summarise(backward);
   result.bbox_diagonal = glm::length(box.size());
   result.vertex_distance = by_vertex(forward);
-  if (options.n_bins > 0) {
-    const double asked = options.histogram_most / (options.unit_cube ? unit_cube_factor(box) : 1);
-    add_histograms(forward, backward, asked > 0 ? asked : result.symmetric().max, options.n_bins,
-                   result);
-  }
-  if (options.unit_cube) change_to_unit_cube(result, box);
+  add_histograms(forward, &backward, box, options, result);
+  finish_units(result, box, a.offset, options.unit_cube);
+  return result;
+}
+
+SurfaceDistance measure_point_distance(const TriMesh& first, const TriMesh& second,
+                                       PointCloud points, const DistanceOptions& options,
+                                       const Progress& progress) {
+  const OneFrame frame(first, second);
+  const TriMesh &cloud = *frame.a, &surface = *frame.b;
+  const Box box = box_of(points == PointCloud::a ? cloud : surface);
+  Direction forward(cloud, plan_points(cloud), surface, join(box_of(cloud), box_of(surface)),
+                    options);
+  measure({&forward}, options.n_threads, progress);
+
+  SurfaceDistance result;
+  result.points = points;
+  result.forward = summarise(forward);
+  result.bbox_diagonal = glm::length(box.size());
+  result.vertex_distance = by_vertex(forward);
+  add_histograms(forward, nullptr, box, options, result);
+  finish_units(result, box, cloud.offset, options.unit_cube);
   return result;
 }
 

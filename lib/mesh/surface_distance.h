@@ -47,13 +47,18 @@ struct OneSidedDistance {
   std::size_t n_all_samples() const { return n_vertices + n_edge_samples + n_face_samples; }
 };
 
+/// Which of A and B is a point cloud.
+enum class PointCloud { none, a, b };
+
 struct SurfaceDistance {
-  OneSidedDistance forward;             ///< from A to B
-  OneSidedDistance backward;            ///< from B to A
+  OneSidedDistance forward;   ///< from A to B; from a point cloud to the other
+  OneSidedDistance backward;  ///< from B to A; with a point cloud there is none
+  PointCloud points = PointCloud::none;
   double bbox_diagonal = 0;             ///< of A, over vertices that a triangle uses
   double units_per_model_unit = 1;      ///< not 1 for unit_cube
   double histogram_most = 0;            ///< where the last bin of both histograms ends
-  std::vector<double> vertex_distance;  ///< of each vertex of A; 0 where no triangle uses it
+  std::vector<double> vertex_distance;  ///< of each vertex of A, or of the point cloud; 0 where no
+                                        ///< triangle uses it
 
   /// The larger of both directions, for the mean and RMS too. Metro prints only the largest
   /// maximum of both; the rest it leaves to the reader of its two columns.
@@ -63,13 +68,21 @@ struct SurfaceDistance {
   Symmetric symmetric() const;
 };
 
-/// d(A, A) is below 1e-15 of the largest coordinate, the rounding of samples. Vertices that no
-/// triangle uses do not count. Sums are taken in a fixed order: the same for any number of threads.
-/// Both meshes must have an area above 0. Memory: 16 bytes a sample. Some 1.5 million samples a
-/// second and core where the surfaces are near; a tenth of it where they are parallel and far apart
-/// for the size of their triangles, since many are then almost the nearest.
+/// Offsets of the meshes may differ: places in the result are in the world's coordinates, as their
+/// files have them. d(A, A) is below 1e-15 of the largest coordinate, the rounding of samples.
+/// Vertices that no triangle uses do not count. Sums are taken in a fixed order: the same for any
+/// number of threads. Both meshes must have an area above 0. Memory: 16 bytes a sample. Some 1.5
+/// million samples a second and core where the surfaces are near; a tenth of it where they are
+/// parallel and far apart for the size of their triangles, since many are then almost the nearest.
 SurfaceDistance measure_surface_distance(const TriMesh& a, const TriMesh& b,
                                          const DistanceOptions& options = {},
                                          const Progress& progress = {});
+
+/// From all vertices of a point cloud to a surface, which must have an area above 0. forward has
+/// them as vertices; mean, RMS and percentiles are over them, each counts alike. points: which of A
+/// and B the cloud is; A's box is that of bbox_diagonal and of the unit cube.
+SurfaceDistance measure_point_distance(const TriMesh& cloud, const TriMesh& surface,
+                                       PointCloud points, const DistanceOptions& options = {},
+                                       const Progress& progress = {});
 
 }  // namespace viewcell

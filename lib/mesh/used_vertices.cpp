@@ -37,6 +37,7 @@ CompactMesh compact(const TriMesh& mesh, std::span<const Triangle> triangles) {
   out.mesh.normals = used.pick(mesh.normals);
   out.mesh.colors = used.pick(mesh.colors);
   out.mesh.triangles = used.renumber(triangles);
+  out.mesh.offset = mesh.offset;
   out.source_vertex = std::move(used.source);
   return out;
 }

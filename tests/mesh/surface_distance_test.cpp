@@ -401,5 +401,69 @@ TEST(OutsideSurfaceDistance, MeansOfTheBunnyDoNotDependOnTheNumberOfSamples) {
   expect_steady_means(read_mesh(file));
 }
 
+// ---- point clouds ----
+
+TriMesh make_points(std::vector<glm::vec3> positions) {
+  TriMesh mesh;
+  mesh.positions = std::move(positions);
+  return mesh;
+}
+
+// Points at heights 0, 1, 2, 3 over a square: every figure by hand.
+TEST(PointDistance, ByHand) {
+  const TriMesh square = make_square(1, 0);
+  const TriMesh points =
+      make_points({{0.5f, 0.5f, 0}, {0.5f, 0.25f, 1}, {0.25f, 0.5f, -2}, {0.5f, 0.5f, 3}});
+  DistanceOptions options;
+  options.n_bins = 3;
+  for (const PointCloud which : {PointCloud::a, PointCloud::b}) {
+    const SurfaceDistance d = measure_point_distance(points, square, which, options);
+    EXPECT_EQ(d.points, which);
+    EXPECT_DOUBLE_EQ(d.forward.max, 3);
+    EXPECT_DOUBLE_EQ(d.forward.mean, 1.5);
+    EXPECT_DOUBLE_EQ(d.forward.rms, std::sqrt(14.0 / 4));
+    EXPECT_DOUBLE_EQ(d.forward.p50, 1);
+    EXPECT_DOUBLE_EQ(d.forward.p95, 3);
+    EXPECT_EQ(d.forward.n_vertices, 4u);
+    EXPECT_EQ(d.forward.n_all_samples(), 4u);
+    EXPECT_EQ(d.backward.n_all_samples(), 0u);
+    EXPECT_EQ(d.forward.histogram, (std::vector<std::uint64_t>{1, 1, 2}));
+    EXPECT_EQ(d.vertex_distance, (std::vector<double>{0, 1, 2, 3}));
+    EXPECT_EQ(d.forward.worst.point, glm::dvec3(0.5, 0.5, 3));
+    EXPECT_DOUBLE_EQ(d.bbox_diagonal,
+                     which == PointCloud::b ? std::sqrt(2.0) : std::sqrt(25 + 2.0 / 16));
+  }
+}
+
+// ---- offsets ----
+
+TEST(SurfaceDistance, OffsetsAreTakenOffExactly) {
+  const glm::dvec3 far(500000, 4649776, 208);
+  TriMesh a = make_box({0, 0, 0}, {4, 4, 4}), b = a;
+  a.offset = far;
+  b.offset = far + glm::dvec3(16, 0, 0);
+  for (glm::vec3& p : b.positions) p.x += -16 + 0.125f;
+  const SurfaceDistance d = measure_surface_distance(a, b, samples(1000));
+  EXPECT_NEAR(d.forward.max, 0.125, 1e-12);
+  EXPECT_NEAR(d.backward.max, 0.125, 1e-12);
+  EXPECT_LT(glm::distance(d.forward.worst.point, far + glm::dvec3(2)), 4);
+  EXPECT_NEAR(glm::distance(d.forward.worst.point, d.forward.worst.nearest), 0.125, 1e-9);
+  DistanceOptions unit = samples(1000);
+  unit.unit_cube = true;
+  const SurfaceDistance u = measure_surface_distance(a, b, unit);
+  EXPECT_NEAR(u.forward.max, 0.125 / 4, 1e-12);
+  EXPECT_LE(glm::length(u.forward.worst.point), std::sqrt(3.0) + 1e-12);
+  // A large mesh about no offset, and a small one that floats there would spoil.
+  const TriMesh ground = make_box({-1e7f, -1e7f, -1e7f}, {1e7f, 1e7f, 208});
+  b.offset = far;
+  for (glm::vec3& p : b.positions) p = p * 0.001f + glm::vec3(0, 0, 0.5f);
+  EXPECT_NEAR(measure_point_distance(make_points(b.positions), ground, PointCloud::a).forward.max,
+              207.5, 1e-3);  // about no offset it is deep inside
+  TriMesh points = make_points(b.positions);
+  points.offset = far;
+  EXPECT_NEAR(measure_point_distance(points, ground, PointCloud::a).forward.max, 0.5 + 0.001 * 4,
+              1e-6);
+}
+
 }  // namespace
 }  // namespace viewcell
