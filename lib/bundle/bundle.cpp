@@ -108,12 +108,12 @@ void check_cells(const CellSet& cells, const BundleManifest& manifest,
 
 }  // namespace
 
-Bundle::Bundle(const fs::path& folder, int n_threads)
+Bundle::Bundle(const fs::path& folder, const ReadSceneOptions& options)
     : manifest_(read_manifest(folder / kManifestName)),
       key_(bake_key(manifest_)),
       bake_(bake_folder(folder, key_)),
       hold_(bake_) {
-  scene_ = read_scene(bake_ / "scene.json", {.n_threads = n_threads});
+  scene_ = read_scene(bake_ / "scene.json", options);
   check_scene(scene_, manifest_, bake_);
   cells_ = read_cells(bake_ / "cells.json");
   check_cells(cells_, manifest_, folder / kManifestName, bake_ / "cells.json");

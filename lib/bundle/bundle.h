@@ -75,7 +75,7 @@ class Bundle {
  public:
   /// Throws InputError unless the folder holds a whole bundle whose manifest, scene, meshes and
   /// cells are those that were packed. While it lives cellpack leaves its files there.
-  explicit Bundle(const std::filesystem::path& folder, int n_threads = 0);
+  explicit Bundle(const std::filesystem::path& folder, const ReadSceneOptions& options = {});
 
   const BundleManifest& manifest() const { return manifest_; }
   const Scene& scene() const { return scene_; }

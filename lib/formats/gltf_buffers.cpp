@@ -1,13 +1,12 @@
 #include "formats/gltf_buffers.h"
 
 #include <algorithm>
-#include <array>
-#include <cstring>
-#include <limits>
+#include <optional>
 
 #include "base/error.h"
 #include "base/file.h"
 #include "formats/byte_cursor.h"
+#include "formats/gltf_meshopt.h"
 
 namespace viewcell {
 namespace {
@@ -39,23 +38,46 @@ Parts split_parts(std::string_view bytes, const std::string& file) {
   return parts;
 }
 
-// Extensions that leave positions and faces as the core says, or that this room reads.
-bool is_harmless(const std::string& extension) {
-  static constexpr std::string_view kHarmless[] = {"KHR_materials_", "KHR_texture_", "EXT_texture_",
-                                                   "KHR_lights_", "KHR_mesh_quantization"};
-  return std::any_of(std::begin(kHarmless), std::end(kHarmless),
-                     [&](std::string_view prefix) { return extension.starts_with(prefix); });
+// ---- extensions ----
+
+// Of names, by how they begin: what this room applies, and what has no part in positions, faces,
+// colours of vertices and texture coordinates.
+constexpr std::string_view kApplied[] = {"KHR_texture_transform",
+                                         "KHR_mesh_quantization",
+                                         "EXT_mesh_gpu_instancing",
+                                         "KHR_draco_mesh_compression",
+                                         "EXT_meshopt_compression",
+                                         "KHR_meshopt_compression",
+                                         "KHR_node_visibility",
+                                         "KHR_texture_",
+                                         "EXT_texture_"};
+constexpr std::string_view kHarmless[] = {
+    "KHR_materials_",    "KHR_lights_",           "EXT_lights_",
+    "KHR_xmp",           "KHR_animation_pointer", "EXT_structural_metadata",
+    "EXT_mesh_features", "EXT_instance_features", "KHR_audio"};
+
+bool is_known(const std::string& extension) {
+  const auto starts = [&](std::string_view prefix) { return extension.starts_with(prefix); };
+  return std::any_of(std::begin(kApplied), std::end(kApplied), starts) ||
+         std::any_of(std::begin(kHarmless), std::end(kHarmless), starts);
 }
 
-void check_header(const JsonCursor& root) {
+void check_header(const JsonCursor& root, Remarks* remarks) {
   const std::string version = root.at("asset").at("version").string();
   if (!version.starts_with("2."))
     root.at("asset").at("version").fail("version " + version + "; only version 2 is read");
-  if (!root.has("extensionsRequired")) return;
-  const JsonCursor required = root.at("extensionsRequired");
-  for (std::size_t i = 0; i < required.size(); ++i)
-    if (const std::string name = required.at(i).string(); !is_harmless(name))
-      required.at(i).fail("the extension " + name + " is not read; export without it");
+  const auto each_unknown = [&](const char* key, const auto& call) {
+    if (!root.has(key)) return;
+    const JsonCursor names = root.at(key);
+    for (std::size_t i = 0; i < names.size(); ++i)
+      if (const std::string name = names.at(i).string(); !is_known(name)) call(names.at(i), name);
+  };
+  each_unknown("extensionsRequired", [](const JsonCursor& at, const std::string& name) {
+    at.fail("the extension " + name + " is not read; export without it");
+  });
+  each_unknown("extensionsUsed", [&](const JsonCursor&, const std::string& name) {
+    add_remark(remarks, "the extension " + name + ", not applied");
+  });
 }
 
 // ---- buffers ----
@@ -103,15 +125,39 @@ std::string load_uri(const JsonCursor& place) {
   return read_file(resolve_inside(place.file(), place.place(), decode_percent(uri)));
 }
 
+// A file that several buffers name is loaded once.
+std::string_view load_buffer(const JsonCursor& uri, GltfFile& gltf) {
+  const auto [found, is_new] = gltf.loaded.try_emplace(uri.string());
+  if (is_new) {
+    found->second = load_uri(uri);
+    gltf.n_bytes += found->second.size();
+  }
+  return found->second;
+}
+
+// The extension by which views are compressed, where object has it.
+std::optional<JsonCursor> meshopt_extension(const JsonCursor& object) {
+  for (const char* name : {"EXT_meshopt_compression", "KHR_meshopt_compression"})
+    if (has_extension(object, name)) return extension_of(object, name);
+  return std::nullopt;
+}
+
+bool is_fallback(const JsonCursor& buffer) {
+  const auto extension = meshopt_extension(buffer);
+  return extension && extension->has("fallback") && extension->at("fallback").boolean();
+}
+
 void load_buffers(const Parts& parts, GltfFile& gltf) {
   if (!gltf.root().has("buffers")) return;
   const JsonCursor buffers = gltf.root().at("buffers");
   for (std::size_t i = 0; i < buffers.size(1024); ++i) {
     const JsonCursor buffer = buffers.at(i);
+    gltf.buffers.emplace_back();
+    if (is_fallback(buffer)) continue;  // what it would hold is decoded
     if (buffer.has("uri"))
-      gltf.buffers.push_back(load_uri(buffer.at("uri")));
+      gltf.buffers.back() = load_buffer(buffer.at("uri"), gltf);
     else if (i == 0 && parts.is_binary)
-      gltf.buffers.emplace_back(parts.binary);
+      gltf.buffers.back() = parts.binary;
     else
       buffer.fail("has no \"uri\"");
     const std::int64_t n_bytes = buffer.at("byteLength").integer(1, kMostBufferBytes);
@@ -121,160 +167,77 @@ void load_buffers(const Parts& parts, GltfFile& gltf) {
   }
 }
 
-// ---- accessors ----
+// ---- views ----
 
-// Elements of an accessor, inside a buffer.
-struct Elements {
-  const char* first = nullptr;
-  std::size_t count = 0, stride = 0, n_components = 0;
-  std::int64_t component_type = 0;
-  bool normalized = false;
-};
-
-std::size_t component_bytes(const JsonCursor& accessor) {
-  switch (accessor.at("componentType").integer(0, 1 << 20)) {
-    case 5120:
-    case 5121:
-      return 1;
-    case 5122:
-    case 5123:
-      return 2;
-    case 5125:
-    case 5126:
-      return 4;
-    default:
-      accessor.at("componentType").fail("is no component type of glTF");
-  }
-}
-
-JsonCursor accessor_at(const GltfFile& gltf, std::int64_t id) {
-  return gltf.root().at("accessors").at(static_cast<std::size_t>(id));
-}
-
-std::int64_t optional_integer(const JsonCursor& object, const char* key, std::int64_t fallback) {
-  return object.has(key) ? object.at(key).integer(0, kMostBufferBytes) : fallback;
-}
-
-JsonCursor view_at(const GltfFile& gltf, std::int64_t id) {
-  return gltf.root().at("bufferViews").at(static_cast<std::size_t>(id));
-}
-
-std::string_view bytes_of_view(const GltfFile& gltf, const JsonCursor& view) {
-  const auto buffer_id = static_cast<std::size_t>(view.at("buffer").integer(0, 1 << 30));
-  if (buffer_id >= gltf.buffers.size()) view.at("buffer").fail("no such buffer");
-  const auto start = static_cast<std::size_t>(optional_integer(view, "byteOffset", 0));
-  const auto n_bytes = static_cast<std::size_t>(view.at("byteLength").integer(1, kMostBufferBytes));
+// `place` is a view, or the extension of one: both have the keys.
+std::string_view bytes_at(const GltfFile& gltf, const JsonCursor& place) {
+  const auto buffer_id = static_cast<std::size_t>(gltf_index(place.at("buffer")));
+  if (buffer_id >= gltf.buffers.size()) place.at("buffer").fail("no such buffer");
+  const std::int64_t start =
+      place.has("byteOffset") ? place.at("byteOffset").integer(0, kMostBufferBytes) : 0;
+  const std::int64_t n_bytes = place.at("byteLength").integer(1, kMostBufferBytes);
   const std::string_view buffer = gltf.buffers[buffer_id];
-  if (start + n_bytes > buffer.size()) view.fail("is past its buffer's end");
-  return buffer.substr(start, n_bytes);
+  if (static_cast<std::size_t>(start + n_bytes) > buffer.size())
+    place.fail("is past its buffer's end");
+  return buffer.substr(static_cast<std::size_t>(start), static_cast<std::size_t>(n_bytes));
 }
 
-Elements locate(const GltfFile& gltf, std::int64_t id) {
-  const JsonCursor accessor = accessor_at(gltf, id);
-  if (accessor.has("sparse")) accessor.fail("sparse accessors are not read");
-  if (!accessor.has("bufferView"))
-    accessor.fail("has no \"bufferView\" (compressed meshes are not read)");
-  Elements e;
-  e.count = static_cast<std::size_t>(accessor.at("count").integer(1, 0xffffffff));
-  e.component_type = accessor.at("componentType").integer(0, 1 << 20);
-  e.n_components = accessor_components(gltf, id);
-  e.normalized = accessor.has("normalized") && accessor.at("normalized").boolean();
-  const std::size_t element_bytes = e.n_components * component_bytes(accessor);
-
-  const std::int64_t view_id = accessor.at("bufferView").integer(0, 1 << 30);
-  const JsonCursor view = view_at(gltf, view_id);
-  const std::string_view bytes = bytes_of_view(gltf, view);
-  e.stride = static_cast<std::size_t>(
-      optional_integer(view, "byteStride", static_cast<std::int64_t>(element_bytes)));
-  if (e.stride < element_bytes || e.stride > 65536) view.at("byteStride").fail("is out of range");
-  const auto start = static_cast<std::size_t>(optional_integer(accessor, "byteOffset", 0));
-  if (start + (e.count - 1) * e.stride + element_bytes > bytes.size())
-    accessor.fail("is past its buffer view's end");
-  e.first = bytes.data() + start;
-  return e;
-}
-
-template <typename T>
-void gather(const Elements& e, std::vector<float>& out) {
-  const float scale =
-      e.normalized ? 1.0f / static_cast<float>(std::numeric_limits<T>::max()) : 1.0f;
-  for (std::size_t i = 0; i < e.count; ++i)
-    for (std::size_t k = 0; k < e.n_components; ++k) {
-      T value;
-      std::memcpy(&value, e.first + i * e.stride + k * sizeof(T), sizeof(T));
-      const float x = static_cast<float>(value) * scale;
-      out.push_back(e.normalized ? std::max(x, -1.0f) : x);
-    }
+// Views of a file that means no harm share no bytes: together they hold 64 times its own at most.
+GltfFile::Decoded decode_view(const GltfFile& gltf, const JsonCursor& extension) {
+  const std::string_view packed = bytes_at(gltf, extension);
+  const std::uint64_t most = 64 * gltf.n_bytes - std::min(64 * gltf.n_bytes, gltf.n_decoded);
+  const MeshoptView view = read_meshopt_view(extension, packed.size(), most);
+  gltf.n_decoded += view.count * view.stride;
+  return {decode_meshopt(view, packed, extension), view.mode == "ATTRIBUTES" ? view.stride : 0};
 }
 
 }  // namespace
 
-GltfFile parse_gltf_file(std::string_view bytes, const std::filesystem::path& file) {
+GltfFile parse_gltf_file(std::string_view bytes, const std::filesystem::path& file,
+                         Remarks* remarks) {
   const Parts parts = split_parts(bytes, file.string());
   GltfFile gltf;
   gltf.file = file;
+  gltf.n_bytes = bytes.size();
   gltf.json = parse_json(std::string(parts.json), file);
-  check_header(gltf.root());
+  check_header(gltf.root(), remarks);
   load_buffers(parts, gltf);
   return gltf;
+}
+
+GltfView read_view(const GltfFile& gltf, std::int64_t id) {
+  const JsonCursor view = gltf.root().at("bufferViews").at(static_cast<std::size_t>(id));
+  if (const auto extension = meshopt_extension(view)) {
+    auto found = gltf.decoded.find(id);
+    if (found == gltf.decoded.end())
+      found = gltf.decoded.emplace(id, decode_view(gltf, *extension)).first;
+    return {found->second.bytes, found->second.stride};
+  }
+  const std::int64_t stride =
+      view.has("byteStride") ? view.at("byteStride").integer(1, 65536) : std::int64_t{0};
+  return {bytes_at(gltf, view), static_cast<std::size_t>(stride)};
 }
 
 std::string read_image_bytes(const GltfFile& gltf, std::int64_t id) {
   const JsonCursor image = gltf.root().at("images").at(static_cast<std::size_t>(id));
   if (image.has("uri")) return load_uri(image.at("uri"));
-  const std::int64_t view_id = image.at("bufferView").integer(0, 1 << 30);
-  return std::string(bytes_of_view(gltf, view_at(gltf, view_id)));
+  return std::string(read_view(gltf, gltf_index(image.at("bufferView"))).bytes);
 }
 
-std::size_t accessor_components(const GltfFile& gltf, std::int64_t id) {
-  const JsonCursor type = accessor_at(gltf, id).at("type");
-  const std::string name = type.string();
-  if (name == "SCALAR") return 1;
-  for (std::size_t n = 2; n <= 4; ++n)
-    if (name == "VEC" + std::to_string(n)) return n;
-  type.fail("expected SCALAR, VEC2, VEC3 or VEC4");
+std::int64_t gltf_index(const JsonCursor& value) {
+  return value.integer(0, 1 << 30);
 }
 
-std::vector<float> read_float_accessor(const GltfFile& gltf, std::int64_t id,
-                                       std::size_t n_components) {
-  Elements e = locate(gltf, id);
-  if (e.n_components != n_components)
-    accessor_at(gltf, id).fail("expected " + std::to_string(n_components) + " components");
-  std::vector<float> out;
-  out.reserve(e.count * n_components);
-  switch (e.component_type) {
-    case 5120:
-      gather<std::int8_t>(e, out);
-      break;
-    case 5121:
-      gather<std::uint8_t>(e, out);
-      break;
-    case 5122:
-      gather<std::int16_t>(e, out);
-      break;
-    case 5123:
-      gather<std::uint16_t>(e, out);
-      break;
-    case 5125:
-      gather<std::uint32_t>(e, out);
-      break;
-    default:
-      e.normalized = false;
-      gather<float>(e, out);
-  }
-  return out;
+std::int64_t optional_gltf_index(const JsonCursor& object, const char* key) {
+  return object.has(key) ? gltf_index(object.at(key)) : -1;
 }
 
-std::vector<std::uint32_t> read_index_accessor(const GltfFile& gltf, std::int64_t id) {
-  const Elements e = locate(gltf, id);
-  const JsonCursor accessor = accessor_at(gltf, id);
-  const std::int64_t type = e.component_type;
-  if (e.n_components != 1 || (type != 5121 && type != 5123 && type != 5125))
-    accessor.fail("indices must be unsigned scalars");
-  std::vector<std::uint32_t> out(e.count, 0);
-  for (std::size_t i = 0; i < e.count; ++i)  // little-endian: the low bytes stand first
-    std::memcpy(&out[i], e.first + i * e.stride, component_bytes(accessor));
-  return out;
+bool has_extension(const JsonCursor& object, const char* name) {
+  return object.has("extensions") && object.at("extensions").has(name);
+}
+
+JsonCursor extension_of(const JsonCursor& object, const char* name) {
+  return object.at("extensions").at(name);
 }
 
 }  // namespace viewcell

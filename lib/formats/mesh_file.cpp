@@ -1,10 +1,12 @@
 #include "formats/mesh_file.h"
 
 #include <algorithm>
+#include <cstdio>
 #include <string_view>
 
 #include "base/error.h"
 #include "base/file.h"
+#include "formats/mesh_limits.h"
 #include "formats/readers.h"
 #include "mesh/surface_samples.h"
 
@@ -12,21 +14,32 @@ namespace viewcell {
 namespace {
 
 using Reader = TriMesh (*)(std::string_view bytes, const std::filesystem::path& file,
-                           Remarks* remarks);
+                           Remarks* remarks, const MeshLimits& limits);
 
 TriMesh parse_gzipped_ply(std::string_view bytes, const std::filesystem::path& file,
                           Remarks* remarks) {
   return parse_ply_mesh(gunzip(bytes, file), file, remarks);
 }
 
+// Of a format in which no file grows.
+template <TriMesh (*parse)(std::string_view, const std::filesystem::path&, Remarks*)>
+TriMesh plain(std::string_view bytes, const std::filesystem::path& file, Remarks* remarks,
+              const MeshLimits&) {
+  return parse(bytes, file, remarks);
+}
+
 struct Format {
   std::string_view ending;
   Reader reader;
 };
-constexpr Format kFormats[] = {
-    {".obj", parse_obj},   {".ply", parse_ply_mesh}, {".ply.gz", parse_gzipped_ply},
-    {".off", parse_off},   {".stl", parse_stl},      {".glb", parse_gltf},
-    {".gltf", parse_gltf}, {".3ds", parse_3ds}};
+constexpr Format kFormats[] = {{".obj", plain<parse_obj>},
+                               {".ply", plain<parse_ply_mesh>},
+                               {".ply.gz", plain<parse_gzipped_ply>},
+                               {".off", plain<parse_off>},
+                               {".stl", plain<parse_stl>},
+                               {".glb", parse_gltf},
+                               {".gltf", parse_gltf},
+                               {".3ds", plain<parse_3ds>}};
 
 // By the name's ending; none: nullptr.
 Reader reader_by_name(const std::filesystem::path& file) {
@@ -50,13 +63,13 @@ bool has_obj_vertex(std::string_view bytes) {
 
 // By what the file holds; nothing known: nullptr.
 Reader reader_by_content(std::string_view bytes) {
-  if (bytes.starts_with("ply")) return parse_ply_mesh;
-  if (bytes.starts_with("\x1f\x8b")) return parse_gzipped_ply;
+  if (bytes.starts_with("ply")) return plain<parse_ply_mesh>;
+  if (bytes.starts_with("\x1f\x8b")) return plain<parse_gzipped_ply>;
   if (bytes.starts_with("glTF") || bytes.starts_with("{")) return parse_gltf;
-  if (starts_as_off(bytes)) return parse_off;
-  if (is_binary_stl(bytes) || bytes.starts_with("solid")) return parse_stl;
-  if (bytes.starts_with("MM")) return parse_3ds;
-  if (has_obj_vertex(bytes)) return parse_obj;
+  if (starts_as_off(bytes)) return plain<parse_off>;
+  if (is_binary_stl(bytes) || bytes.starts_with("solid")) return plain<parse_stl>;
+  if (bytes.starts_with("MM")) return plain<parse_3ds>;
+  if (has_obj_vertex(bytes)) return plain<parse_obj>;
   return nullptr;
 }
 
@@ -69,20 +82,31 @@ Reader reader_by_content(std::string_view bytes) {
 
 }  // namespace
 
-TriMesh read_mesh(const std::filesystem::path& file, MeshSource* source) {
+std::string describe_growth(double n, const char* of_what, double most) {
+  char text[160];
+  std::snprintf(text, sizeof text, "would be %.0f %s; at most %.0f are read (--max-triangles N)", n,
+                of_what, most);
+  return text;
+}
+
+TriMesh read_mesh(const std::filesystem::path& file, MeshSource* source, const MeshLimits& limits) {
   const std::string bytes = read_file(file);
   Reader reader = reader_by_name(file);
   if (reader == nullptr) reader = reader_by_content(bytes);
   if (reader == nullptr) refuse_format(file);
-  TriMesh mesh = reader(bytes, file, source == nullptr ? nullptr : &source->remarks);
+  TriMesh mesh = reader(bytes, file, source == nullptr ? nullptr : &source->remarks, limits);
+  const auto n = static_cast<double>(mesh.triangles.size());
+  if (const double most = most_triangles(limits, bytes.size()); n > most)
+    throw InputError(file.string(), "", describe_growth(n, "triangles", most));
   if (source != nullptr) source->hash = hash_hex(bytes);
   check_mesh(mesh, file.string());
   normalize_normals(mesh);
   return mesh;
 }
 
-TriMesh read_surface(const std::filesystem::path& file, MeshSource* source) {
-  TriMesh mesh = read_mesh(file, source);
+TriMesh read_surface(const std::filesystem::path& file, MeshSource* source,
+                     const MeshLimits& limits) {
+  TriMesh mesh = read_mesh(file, source, limits);
   if (!(surface_area(mesh) > 0))
     throw InputError(file.string(), "", "has no area: every face is a line or a point");
   return mesh;

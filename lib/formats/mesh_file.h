@@ -2,6 +2,7 @@
 // before anything is allocated, coordinates must be finite, indices in range.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <string>
 
@@ -16,18 +17,26 @@ struct MeshSource {
   Remarks remarks;   ///< what was passed over
 };
 
+/// How far a file may grow as it is read: a few bytes can place one mesh many times, or pack many
+/// triangles.
+struct MeshLimits {
+  std::size_t max_triangles = 0;  ///< 0: 2^24, or 8 for each byte of the file where that is more
+};
+
 /// Reads OBJ, PLY (also .ply.gz), OFF, STL, GLB/glTF, 3DS by the file's extension; "-" (standard
 /// input) and names without a known one, by what the file holds. Polygons are cut
 /// into fans; vertex order and numbers stay those of the file (STL: equal positions become one
 /// vertex). Normals come out of unit length. Colours in files are taken as sRGB, except glTF's,
 /// which are linear. Texture coordinates have (0, 0) at the image's lower left; glTF's are turned
-/// over. A glTF scene's nodes are flattened into one mesh. Throws InputError (file, place) for
-/// anything malformed, and for a mesh with no faces.
-/// source: what else is known of the file, if wanted.
-TriMesh read_mesh(const std::filesystem::path& file, MeshSource* source = nullptr);
+/// over. A glTF scene's nodes are flattened into one mesh, as it rests: docs/formats.md. Throws
+/// InputError (file, place) for anything malformed, for a mesh with no faces, and beyond the
+/// limits. source: what else is known of the file, if wanted.
+TriMesh read_mesh(const std::filesystem::path& file, MeshSource* source = nullptr,
+                  const MeshLimits& limits = {});
 
 /// read_mesh, and an InputError when all faces together have no area.
-TriMesh read_surface(const std::filesystem::path& file, MeshSource* source = nullptr);
+TriMesh read_surface(const std::filesystem::path& file, MeshSource* source = nullptr,
+                     const MeshLimits& limits = {});
 
 /// Binary little-endian PLY: positions, and normals, colours and texture coordinates (as a list
 /// "texcoord" of each face) where present. comments: lines of

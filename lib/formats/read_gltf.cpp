@@ -3,276 +3,223 @@
 // image whose view is out of range, and whose accessors would all have to be checked again here.
 // Not by cgltf (1.12 tried), whose check adds sizes without asking for their signs: a view from
 // -100000000 of 100000064 bytes passes it, and is read.
-#include <glm/gtc/quaternion.hpp>
+#include <algorithm>
+#include <map>
+#include <memory>
+#include <tuple>
 
 #include "base/error.h"
-#include "formats/gltf_buffers.h"
+#include "formats/gltf_mesh.h"
 #include "formats/material_ids.h"
+#include "formats/mesh_limits.h"
 #include "formats/readers.h"
 
 namespace viewcell {
 namespace {
 
-// A small file can place one mesh many times; what it grows to is bounded.
-constexpr std::size_t kMostTriangles = 1 << 26;
-constexpr std::size_t kMostVertices = 1 << 26;
+// Vertices of morph targets, all together: what a second or two adds up.
+constexpr double kMostMorphed = 1 << 28;
 
-enum Mode { kTriangles = 4, kStrip = 5, kFan = 6 };
+// Normals turn by the cofactors, which keep their direction under any scale.
+struct VertexTransform {
+  explicit VertexTransform(const glm::dmat4& matrix) : world(matrix) {
+    const glm::dmat3 m(matrix);
+    is_mirrored = glm::determinant(m) < 0;
+    normals = glm::dmat3(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1]));
+    if (is_mirrored) normals = -normals;
+  }
+  glm::vec3 normal(const glm::vec3& n) const {
+    const glm::dvec3 turned = normals * glm::dvec3(n);
+    const double length = glm::length(turned);
+    return length > 0 ? glm::vec3(turned / length) : glm::vec3(0);
+  }
 
-glm::dmat4 local_matrix(const JsonCursor& node) {
-  if (node.has("matrix")) {
-    const std::vector<double> m = node.at("matrix").numbers(16);  // column by column
-    glm::dmat4 matrix;
-    for (int c = 0; c < 4; ++c)
-      for (int r = 0; r < 4; ++r) matrix[c][r] = m[static_cast<std::size_t>(4 * c + r)];
-    return matrix;
+  glm::dmat4 world;
+  glm::dmat3 normals;
+  bool is_mirrored;
+};
+
+// Decoded meshes stay while more placements of them are to come.
+class MeshCache {
+ public:
+  explicit MeshCache(const std::vector<GltfPlacement>& placements) {
+    for (const GltfPlacement& placement : placements) ++n_uses_[key_of(placement)];
   }
-  glm::dmat4 matrix(1);
-  if (node.has("rotation")) {
-    const std::vector<double> q = node.at("rotation").numbers(4);
-    const glm::dquat rotation(q[3], q[0], q[1], q[2]);
-    if (glm::length(rotation) > 0) matrix = glm::mat4_cast(glm::normalize(rotation));
+  std::shared_ptr<const GltfMesh> read(const GltfFile& gltf, const GltfPlacement& placement,
+                                       Remarks* remarks) {
+    const Key key = key_of(placement);
+    std::shared_ptr<const GltfMesh> mesh = meshes_[key];
+    if (mesh == nullptr)
+      mesh = std::make_shared<const GltfMesh>(read_gltf_mesh(gltf, placement, remarks));
+    if (--n_uses_[key] > 0)
+      meshes_[key] = mesh;
+    else
+      meshes_.erase(key);
+    return mesh;
   }
-  if (node.has("scale")) {
-    const std::vector<double> s = node.at("scale").numbers(3);
-    for (int k = 0; k < 3; ++k) matrix[k] *= s[static_cast<std::size_t>(k)];
+
+ private:
+  using Key = std::tuple<std::int64_t, std::int64_t, bool>;
+  static Key key_of(const GltfPlacement& p) {
+    return {p.mesh, p.has_weights ? static_cast<std::int64_t>(p.node) : -1, p.skin >= 0};
   }
-  if (node.has("translation")) {
-    const std::vector<double> t = node.at("translation").numbers(3);
-    matrix[3] = glm::dvec4(t[0], t[1], t[2], 1);
-  }
-  return matrix;
-}
+  std::map<Key, std::size_t> n_uses_;
+  std::map<Key, std::shared_ptr<const GltfMesh>> meshes_;
+};
 
 class GltfFlattener {
  public:
-  explicit GltfFlattener(const GltfFile& gltf) : gltf_(gltf), root_(gltf.root()) {}
+  GltfFlattener(const GltfFile& gltf, const MeshLimits& limits, Remarks* remarks)
+      : gltf_(gltf),
+        remarks_(remarks),
+        nodes_(gltf),
+        placements_(nodes_.place_meshes(remarks)),
+        cache_(placements_),
+        material_names_(name_materials(gltf.root())) {
+    check_growth(limits);
+  }
 
   TriMesh flatten() {
-    visit_nodes();
-    if (!has_normals_) mesh_.normals.clear();
-    if (!has_colors_) mesh_.colors.clear();
-    if (!has_texcoords_) mesh_.texcoords.clear();
+    for (const GltfPlacement& placement : placements_) add_placement(placement);
+    if (!mesh_.normals.empty()) mesh_.normals.resize(mesh_.positions.size(), glm::vec3(0));
+    if (!mesh_.colors.empty()) mesh_.colors.resize(mesh_.positions.size(), glm::vec3(1));
+    if (!mesh_.texcoords.empty()) mesh_.texcoords.resize(3 * mesh_.triangles.size(), glm::vec2(0));
     material_ids_.finish(std::move(materials_), mesh_);
     return std::move(mesh_);
   }
 
  private:
-  struct Visit {
-    std::size_t node;
-    glm::dmat4 world_from_parent;
-  };
-
-  // The default scene's roots; without scenes, the nodes that are nobody's children.
-  std::vector<std::size_t> root_nodes() const {
-    std::vector<std::size_t> roots;
-    if (root_.has("scenes") && root_.at("scenes").size() > 0) {
-      const std::int64_t id = root_.has("scene") ? root_.at("scene").integer(0, 1 << 30) : 0;
-      const JsonCursor scene = root_.at("scenes").at(static_cast<std::size_t>(id));
-      if (scene.has("nodes")) add_children(scene.at("nodes"), roots);
-      return roots;
+  // Counts what all placements come to before anything is decoded, and makes room for it.
+  void check_growth(const MeshLimits& limits) {
+    const double most = most_triangles(limits, gltf_.n_bytes);
+    std::map<std::int64_t, GltfMeshSize> sizes;
+    double n_triangles = 0, n_vertices = 0, n_morphed = 0;
+    for (const GltfPlacement& placement : placements_) {
+      const auto [found, is_new] = sizes.try_emplace(placement.mesh);
+      GltfMeshSize& size = found->second;
+      if (is_new) size = measure_gltf_mesh(gltf_, placement.mesh, limits, remarks_);
+      if (size.n_triangles == 0) continue;
+      const auto n = static_cast<double>(placement.n_instances);
+      n_triangles += n * size.n_triangles;
+      n_vertices += n * size.n_vertices;
+      if (!is_new && !placement.has_weights) continue;
+      const std::vector<float> weights = morph_weights(gltf_, placement);
+      n_morphed +=
+          size.n_vertices * static_cast<double>(std::count_if(weights.begin(), weights.end(),
+                                                              [](float w) { return w != 0; }));
     }
-    std::vector<std::size_t> children;
-    const JsonCursor nodes = root_.at("nodes");
-    std::vector<bool> is_child(nodes.size(), false);
-    for (std::size_t i = 0; i < nodes.size(); ++i)
-      if (nodes.at(i).has("children")) add_children(nodes.at(i).at("children"), children);
-    for (const std::size_t child : children)
-      if (child < is_child.size()) is_child[child] = true;
-    for (std::size_t i = 0; i < is_child.size(); ++i)
-      if (!is_child[i]) roots.push_back(i);
-    return roots;
-  }
-
-  static void add_children(const JsonCursor& ids, std::vector<std::size_t>& out) {
-    for (std::size_t i = 0; i < ids.size(); ++i)
-      out.push_back(static_cast<std::size_t>(ids.at(i).integer(0, 1 << 30)));
-  }
-
-  void visit_nodes() {
-    if (!root_.has("nodes")) return;
-    const JsonCursor nodes = root_.at("nodes");
-    std::vector<bool> is_visited(nodes.size(), false);
-    std::vector<Visit> stack;
-    const auto push = [&](const std::vector<std::size_t>& ids, const glm::dmat4& matrix) {
-      for (std::size_t i = ids.size(); i-- > 0;) stack.push_back({ids[i], matrix});
+    const auto check = [&](double n, const char* of_what, double limit) {
+      if (n > limit) throw InputError(gltf_.file.string(), "", describe_growth(n, of_what, limit));
     };
-    push(root_nodes(), glm::dmat4(1));
-    while (!stack.empty()) {
-      const Visit visit = stack.back();
-      stack.pop_back();
-      const JsonCursor node = nodes.at(visit.node);
-      if (is_visited[visit.node]) node.fail("is reached twice; nodes must form a tree");
-      is_visited[visit.node] = true;
-      const glm::dmat4 world_from_node = visit.world_from_parent * local_matrix(node);
-      if (node.has("mesh")) add_mesh(node.at("mesh").integer(0, 1 << 30), world_from_node);
-      std::vector<std::size_t> children;
-      if (node.has("children")) add_children(node.at("children"), children);
-      push(children, world_from_node);
+    check(n_triangles, "triangles", most);
+    check(n_vertices, "vertices", 3 * most);
+    if (n_morphed > kMostMorphed)
+      throw InputError(gltf_.file.string(), "",
+                       "its morph targets have too many vertices to add up");
+    mesh_.positions.reserve(static_cast<std::size_t>(n_vertices));
+    mesh_.triangles.reserve(static_cast<std::size_t>(n_triangles));
+  }
+
+  void add_placement(const GltfPlacement& placement) {
+    const std::shared_ptr<const GltfMesh> mesh = cache_.read(gltf_, placement, remarks_);
+    if (std::all_of(mesh->parts.begin(), mesh->parts.end(),
+                    [](const GltfPart& part) { return part.triangles.empty(); }))
+      return;
+    for (const glm::dmat4& matrix : nodes_.world_from_instances(placement)) {
+      const VertexTransform rigid(matrix);
+      std::vector<std::uint32_t> first;  // of each list of vertices
+      std::vector<std::vector<bool>> is_mirrored;
+      for (const GltfVertices& vertices : mesh->vertices) {
+        first.push_back(static_cast<std::uint32_t>(mesh_.positions.size()));
+        is_mirrored.emplace_back();
+        if (vertices.n_influences > 0)
+          is_mirrored.back() = add_bound_vertices(vertices, placement.skin);
+        else
+          for (std::size_t v = 0; v < vertices.positions.size(); ++v)
+            add_vertex(vertices, v, rigid);
+        add_colors(vertices);
+      }
+      for (const GltfPart& part : mesh->parts)
+        add_part(part, mesh->vertices[part.vertices], first[part.vertices], rigid.is_mirrored,
+                 is_mirrored[part.vertices]);
     }
   }
 
-  void add_mesh(std::int64_t id, const glm::dmat4& matrix) {
-    const JsonCursor primitives =
-        root_.at("meshes").at(static_cast<std::size_t>(id)).at("primitives");
-    for (std::size_t i = 0; i < primitives.size(); ++i) {
-      const JsonCursor primitive = primitives.at(i);
-      const std::int64_t mode =
-          primitive.has("mode") ? primitive.at("mode").integer(0, 6) : std::int64_t{kTriangles};
-      if (mode >= kTriangles) add_primitive(primitive, mode, matrix);  // else points or lines
-    }
-  }
-
-  static std::int64_t attribute(const JsonCursor& primitive, const char* name) {
-    const JsonCursor attributes = primitive.at("attributes");
-    return attributes.has(name) ? attributes.at(name).integer(0, 1 << 30) : -1;
-  }
-
-  void add_primitive(const JsonCursor& primitive, std::int64_t mode, const glm::dmat4& matrix) {
-    const std::int64_t position_id = attribute(primitive, "POSITION");
-    if (position_id < 0) primitive.fail("has no POSITION");
-    const std::vector<float> positions = read_float_accessor(gltf_, position_id, 3);
-    const std::size_t first = mesh_.positions.size(), n = positions.size() / 3;
-    if (first + n > kMostVertices) primitive.fail("the scene has too many vertices");
-    for (std::size_t v = 0; v < n; ++v) {
-      const glm::dvec4 p(positions[3 * v], positions[3 * v + 1], positions[3 * v + 2], 1);
-      mesh_.positions.emplace_back(matrix * p);
-    }
-    add_normals(primitive, n, glm::dmat3(matrix));
-    add_colors(primitive, n);
-    const std::size_t first_triangle = mesh_.triangles.size();
-    const bool is_mirrored = glm::determinant(glm::dmat3(matrix)) < 0;
-    add_triangles(read_indices(primitive, n), mode, is_mirrored, first);
-    if (mesh_.triangles.size() > kMostTriangles) primitive.fail("the scene has too many triangles");
-    add_texcoords(primitive, n, first, first_triangle);
-    materials_.resize(mesh_.triangles.size(), material_of(primitive));
-  }
-
-  std::vector<std::uint32_t> read_indices(const JsonCursor& primitive, std::size_t n) const {
-    std::vector<std::uint32_t> indices;
-    if (!primitive.has("indices")) {
-      for (std::size_t v = 0; v < n; ++v) indices.push_back(static_cast<std::uint32_t>(v));
-      return indices;
-    }
-    indices = read_index_accessor(gltf_, primitive.at("indices").integer(0, 1 << 30));
-    for (std::size_t i = 0; i < indices.size(); ++i)
-      if (indices[i] >= n)
-        primitive.fail("index " + std::to_string(i) + ": vertex " + std::to_string(indices[i]) +
-                       " does not exist; there are " + std::to_string(n));
-    return indices;
-  }
-
-  void add_triangles(const std::vector<std::uint32_t>& indices, std::int64_t mode, bool is_mirrored,
-                     std::size_t first) {
-    const auto add = [&](std::size_t a, std::size_t b, std::size_t c) {
-      if (is_mirrored) std::swap(b, c);
-      const auto vertex = [&](std::size_t i) {
-        return static_cast<std::uint32_t>(first + indices[i]);
-      };
-      mesh_.triangles.push_back({vertex(a), vertex(b), vertex(c)});
-    };
-    const std::size_t n = indices.size();
-    if (mode == kTriangles)
-      for (std::size_t i = 0; i + 2 < n; i += 3) add(i, i + 1, i + 2);
-    if (mode == kStrip)
-      for (std::size_t i = 0; i + 2 < n; ++i) add(i, i + 1 + i % 2, i + 2 - i % 2);
-    if (mode == kFan)
-      for (std::size_t i = 1; i + 1 < n; ++i) add(i, i + 1, 0);
-  }
-
-  // Normals turn by the cofactors, which keep their direction under any scale.
-  void add_normals(const JsonCursor& primitive, std::size_t n, const glm::dmat3& m) {
-    const std::int64_t id = attribute(primitive, "NORMAL");
-    if (id < 0) {
+  void add_vertex(const GltfVertices& from, std::size_t v, const VertexTransform& transform) {
+    if (!from.normals.empty()) {
       mesh_.normals.resize(mesh_.positions.size(), glm::vec3(0));
-      return;
+      mesh_.normals.push_back(transform.normal(from.normals[v]));
     }
-    const std::vector<float> normals = read_float_accessor(gltf_, id, 3);
-    if (normals.size() != 3 * n) primitive.fail("NORMAL and POSITION differ in length");
-    has_normals_ = true;
-    const double sign = glm::determinant(m) < 0 ? -1 : 1;
-    const glm::dmat3 cofactors(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]),
-                               glm::cross(m[0], m[1]));
-    for (std::size_t v = 0; v < n; ++v) {
-      const glm::dvec3 normal(normals[3 * v], normals[3 * v + 1], normals[3 * v + 2]);
-      const glm::dvec3 turned = sign * (cofactors * normal);
-      const double length = glm::length(turned);
-      mesh_.normals.emplace_back(length > 0 ? turned / length : glm::dvec3(0));
-    }
+    mesh_.positions.emplace_back(transform.world * glm::dvec4(from.positions[v], 1));
   }
 
-  glm::vec3 base_color(const JsonCursor& primitive) const {
-    if (!primitive.has("material")) return glm::vec3(1);
-    const JsonCursor material = material_at(primitive);
-    if (!material.has("pbrMetallicRoughness")) return glm::vec3(1);
-    const JsonCursor pbr = material.at("pbrMetallicRoughness");
-    if (!pbr.has("baseColorFactor")) return glm::vec3(1);
-    const std::vector<double> c = pbr.at("baseColorFactor").numbers(4, 0, 1);
-    return {c[0], c[1], c[2]};
+  // Each by the sum of its joints' matrices. Gives which of them are mirrored.
+  std::vector<bool> add_bound_vertices(const GltfVertices& from, std::int64_t skin) {
+    const std::vector<glm::dmat4>& joints = nodes_.world_from_bound(skin);
+    std::vector<bool> is_mirrored;
+    for (std::size_t v = 0; v < from.positions.size(); ++v) {
+      glm::dmat4 sum(0);
+      for (std::size_t k = v * from.n_influences; k < (v + 1) * from.n_influences; ++k) {
+        if (from.weights[k] == 0) continue;
+        if (from.joints[k] >= joints.size())
+          throw InputError(gltf_.file.string(), "skins[" + std::to_string(skin) + "]",
+                           "vertex " + std::to_string(v) + " is bound to joint " +
+                               std::to_string(from.joints[k]) + "; there are " +
+                               std::to_string(joints.size()));
+        sum += static_cast<double>(from.weights[k]) * joints[from.joints[k]];
+      }
+      const VertexTransform transform(sum);
+      add_vertex(from, v, transform);
+      is_mirrored.push_back(transform.is_mirrored);
+    }
+    return is_mirrored;
   }
 
-  // The vertex's colour times the material's base colour.
-  void add_colors(const JsonCursor& primitive, std::size_t n) {
-    const glm::vec3 base = base_color(primitive);
-    has_colors_ |= base != glm::vec3(1);
-    const std::int64_t id = attribute(primitive, "COLOR_0");
-    if (id < 0) {
-      mesh_.colors.resize(mesh_.positions.size(), base);
-      return;
-    }
-    const std::size_t n_channels = accessor_components(gltf_, id);
-    if (n_channels < 3) primitive.fail("COLOR_0 has fewer than three components");
-    const std::vector<float> colors = read_float_accessor(gltf_, id, n_channels);
-    if (colors.size() != n_channels * n) primitive.fail("COLOR_0 and POSITION differ in length");
-    has_colors_ = true;
-    for (std::size_t v = 0; v < n; ++v) {
-      const float* c = colors.data() + n_channels * v;
-      mesh_.colors.push_back(base * glm::clamp(glm::vec3(c[0], c[1], c[2]), 0.0f, 1.0f));
-    }
+  void add_colors(const GltfVertices& from) {
+    if (from.colors.empty()) return;
+    mesh_.colors.resize(mesh_.positions.size() - from.positions.size(), glm::vec3(1));
+    mesh_.colors.insert(mesh_.colors.end(), from.colors.begin(), from.colors.end());
   }
 
-  // glTF's texture origin is the upper left; ours is the lower left.
-  void add_texcoords(const JsonCursor& primitive, std::size_t n, std::size_t first,
-                     std::size_t first_triangle) {
-    const std::int64_t id = attribute(primitive, "TEXCOORD_0");
-    if (id < 0) {
+  // Triangles that are mirrored are turned over, so that they stay outside. of_vertices: empty, or
+  // of each vertex instead of is_mirrored.
+  void add_part(const GltfPart& part, const GltfVertices& vertices, std::uint32_t first,
+                bool is_mirrored, const std::vector<bool>& of_vertices) {
+    if (!vertices.texcoords.empty())
       mesh_.texcoords.resize(3 * mesh_.triangles.size(), glm::vec2(0));
-      return;
+    for (Triangle t : part.triangles) {
+      if (of_vertices.empty() ? is_mirrored : of_vertices[t[0]]) std::swap(t[1], t[2]);
+      if (!vertices.texcoords.empty())
+        for (const std::uint32_t v : t) mesh_.texcoords.push_back(vertices.texcoords[v]);
+      mesh_.triangles.push_back({first + t[0], first + t[1], first + t[2]});
     }
-    const std::vector<float> texcoords = read_float_accessor(gltf_, id, 2);
-    if (texcoords.size() != 2 * n) primitive.fail("TEXCOORD_0 and POSITION differ in length");
-    has_texcoords_ = true;
-    for (std::size_t t = first_triangle; t < mesh_.triangles.size(); ++t)
-      for (const std::uint32_t v : mesh_.triangles[t])
-        mesh_.texcoords.emplace_back(texcoords[2 * (v - first)],
-                                     1 - texcoords[2 * (v - first) + 1]);
+    materials_.resize(mesh_.triangles.size(), material_id(part.material));
   }
 
-  JsonCursor material_at(const JsonCursor& primitive) const {
-    const std::int64_t id = primitive.at("material").integer(0, 1 << 30);
-    return root_.at("materials").at(static_cast<std::size_t>(id));
-  }
-
-  std::int32_t material_of(const JsonCursor& primitive) {
-    if (!primitive.has("material")) return MaterialIds::kNone;
-    const JsonCursor material = material_at(primitive);
-    return material_ids_.add(material.has("name") ? material.at("name").string()
-                                                  : material.place());
+  std::int32_t material_id(std::int64_t material) {
+    if (material < 0) return MaterialIds::kNone;
+    return material_ids_.add(material_names_.at(static_cast<std::size_t>(material)));
   }
 
   const GltfFile& gltf_;
-  JsonCursor root_;
+  Remarks* remarks_;
+  GltfNodes nodes_;
+  std::vector<GltfPlacement> placements_;
+  MeshCache cache_;
+  std::vector<std::string> material_names_;
   TriMesh mesh_;
   MaterialIds material_ids_;
   std::vector<std::int32_t> materials_;
-  bool has_normals_ = false, has_colors_ = false, has_texcoords_ = false;
 };
 
 }  // namespace
 
-TriMesh parse_gltf(std::string_view bytes, const std::filesystem::path& file, Remarks*) {
-  const GltfFile gltf = parse_gltf_file(bytes, file);
-  return GltfFlattener(gltf).flatten();
+TriMesh parse_gltf(std::string_view bytes, const std::filesystem::path& file, Remarks* remarks,
+                   const MeshLimits& limits) {
+  const GltfFile gltf = parse_gltf_file(bytes, file, remarks);
+  if (gltf.root().has("animations"))
+    add_remark(remarks, "animations, not played", gltf.root().at("animations").size());
+  return GltfFlattener(gltf, limits, remarks).flatten();
 }
 
 }  // namespace viewcell

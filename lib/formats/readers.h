@@ -9,8 +9,7 @@
 #include <string>
 #include <string_view>
 
-#include "base/remarks.h"
-#include "mesh/mesh.h"
+#include "formats/mesh_file.h"
 
 namespace viewcell {
 
@@ -26,9 +25,10 @@ TriMesh parse_stl(std::string_view bytes, const std::filesystem::path& file,
 /// Material libraries that it names must lie in its folder; they may be missing.
 TriMesh parse_obj(std::string_view bytes, const std::filesystem::path& file,
                   Remarks* remarks = nullptr);
-/// glTF 2.0 as .glb or .gltf. Buffers are embedded or lie in the file's folder.
+/// glTF 2.0 as .glb or .gltf. Buffers are embedded or lie in the file's folder. What it grows to is
+/// held against the limits before anything is decoded.
 TriMesh parse_gltf(std::string_view bytes, const std::filesystem::path& file,
-                   Remarks* remarks = nullptr);
+                   Remarks* remarks = nullptr, const MeshLimits& limits = {});
 /// 3D Studio: all objects of the file, one after another.
 TriMesh parse_3ds(std::string_view bytes, const std::filesystem::path& file,
                   Remarks* remarks = nullptr);

@@ -16,8 +16,8 @@ namespace viewcell {
 /// Pixels are those of the picture: glTF's factors are not applied, colour spaces not changed.
 ///
 /// All materials that the file's faces have must mean the same picture; materials without that slot
-/// are passed over. Throws InputError for several pictures, for none, for texture coordinates other
-/// than the first set or moved by KHR_texture_transform (read_mesh reads neither), for an unknown
+/// are passed over. Throws InputError for several pictures, for none, for one whose texture
+/// coordinates are not those of the material's base colour (read_mesh reads these), for an unknown
 /// slot, and for anything malformed. hash: hash_hex of the file's bytes, if wanted.
 ImageRgba8 read_texture(const std::string& name, std::string* hash = nullptr,
                         const ReadImageOptions& options = {});

@@ -110,8 +110,9 @@ TriMesh simplify_drawn(const SplitMesh& drawn, std::size_t n_triangles) {
   return compact(drawn.mesh, choose_drawn_vertices(drawn.mesh, drawn.weld, triangles)).mesh;
 }
 
-TriMesh load_model(const StatueKind& kind, const Offer& offer, MeshSource& source) {
-  TriMesh mesh = read_mesh(offer.file, &source);
+TriMesh load_model(const StatueKind& kind, const Offer& offer, const MeshLimits& limits,
+                   MeshSource& source) {
+  TriMesh mesh = read_mesh(offer.file, &source, limits);
   mesh.texcoords.clear(), mesh.materials.clear(), mesh.material_names.clear();
   turn_upright(mesh, offer);
   set_on_ground(mesh, kind.size, offer.file);
@@ -122,12 +123,12 @@ TriMesh load_model(const StatueKind& kind, const Offer& offer, MeshSource& sourc
 
 // source: of the model's file, where there is one.
 SceneMesh make_park_mesh(const StatueKind& kind, const std::optional<Offer>& offer, int n_threads,
-                         MeshSource& source) {
+                         const MeshLimits& limits, MeshSource& source) {
   SceneMesh mesh;
   mesh.name = kind.name;
   mesh.file = std::string("meshes/") + kind.name + ".ply";
   if (offer) {
-    mesh.mesh = load_model(kind, *offer, source);
+    mesh.mesh = load_model(kind, *offer, limits, source);
     mesh.substitutes = offer->substitutes;
   } else {
     mesh.mesh = make_statue(kind, n_threads);
@@ -139,7 +140,7 @@ SceneMesh make_park_mesh(const StatueKind& kind, const std::optional<Offer>& off
 
 }  // namespace
 
-ParkMeshes make_park_meshes(const fs::path& folder, int n_threads) {
+ParkMeshes make_park_meshes(const fs::path& folder, int n_threads, const MeshLimits& limits) {
   ParkMeshes out;
   Offers offers(kStatueKinds);
   if (!folder.empty()) {
@@ -155,7 +156,7 @@ ParkMeshes make_park_meshes(const fs::path& folder, int n_threads) {
   out.source_hashes.resize(kStatueKinds);
   std::vector<MeshSource> sources(kStatueKinds);
   parallel_for(kStatueKinds, n_threads, [&](std::size_t k) {
-    out.meshes[k] = make_park_mesh(statue_kinds()[k], offers[k], n_threads, sources[k]);
+    out.meshes[k] = make_park_mesh(statue_kinds()[k], offers[k], n_threads, limits, sources[k]);
   });
   for (std::size_t k = 0; k < kStatueKinds; ++k) {
     out.source_hashes[k] = sources[k].hash;

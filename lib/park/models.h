@@ -25,6 +25,7 @@ struct ParkMeshes {
 /// table's, centred on the z axis and set on z = 0; one with more triangles than the table's is
 /// simplified to them (one fewer where the parity does not allow it). Smaller ones stay.
 /// Throws InputError.
-ParkMeshes make_park_meshes(const std::filesystem::path& folder, int n_threads = 0);
+ParkMeshes make_park_meshes(const std::filesystem::path& folder, int n_threads = 0,
+                            const MeshLimits& limits = {});
 
 }  // namespace viewcell

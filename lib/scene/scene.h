@@ -11,6 +11,7 @@
 #include "base/ids.h"
 #include "base/json.h"
 #include "base/remarks.h"
+#include "formats/mesh_file.h"
 #include "mesh/mesh.h"
 #include "mesh/split_corners.h"
 #include "scene/lighting.h"
@@ -83,6 +84,7 @@ struct Scene {
 struct ReadSceneOptions {
   bool with_meshes = true;  ///< false: only scene.json is parsed; meshes stay empty
   int n_threads = 0;
+  MeshLimits limits;  ///< of each mesh file
 };
 
 /// A point or direction of a space whose axis `up` ("x", "y" or "z") points up, turned so that z

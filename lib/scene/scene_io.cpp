@@ -164,10 +164,10 @@ void apply_up_and_scale(SceneMesh& mesh) {
 
 // Reads and checks one mesh file; place: "meshes[3]". Returns what is to be said of it.
 FileRemarks load_mesh(const std::filesystem::path& scene_file, const std::string& place,
-                      SceneMesh& mesh) {
+                      const MeshLimits& limits, SceneMesh& mesh) {
   const std::filesystem::path file = resolve_inside(scene_file, place + ".file", mesh.file);
   MeshSource source;
-  mesh.mesh = read_mesh(file, &source);
+  mesh.mesh = read_mesh(file, &source, limits);
   if (!mesh.hash.empty() && mesh.hash != source.hash)
     throw InputError(file.string(), "", "mesh file changed since the scene was written");
   mesh.hash = source.hash;
@@ -195,7 +195,7 @@ void load_meshes(const std::filesystem::path& file, const ReadSceneOptions& opti
   parallel_for(scene.meshes.size(), options.n_threads, [&](std::size_t i) {
     SceneMesh& mesh = scene.meshes[i];
     if (options.with_meshes || mesh.hash.empty() || mesh.n_triangles == 0)
-      remarks[i] = load_mesh(file, "meshes[" + std::to_string(i) + "]", mesh);
+      remarks[i] = load_mesh(file, "meshes[" + std::to_string(i) + "]", options.limits, mesh);
     if (!options.with_meshes) mesh.mesh = {}, mesh.weld = {};
   });
   for (FileRemarks& of_mesh : remarks)

@@ -115,15 +115,16 @@ TEST(TextureFile, WhatIsNotReadIsSaid) {
   const auto info = [](Json& json) -> Json& {
     return json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"];
   };
-  bad([&](Json& json) { info(json)["texCoord"] = 1; }, "only texture coordinates 0 are read");
-  bad(
-      [&](Json& json) {
-        info(json)["extensions"]["KHR_texture_transform"]["scale"] = {2, 2};
-      },
-      "KHR_texture_transform is not read");
   bad([&](Json& json) { info(json)["index"] = 7; }, "textures: has no element 7");
   bad([&](Json& json) { info(json)["index"] = -1; }, "index");
   bad([](Json& json) { json["textures"][0].erase("source"); }, "has no picture that is read");
+  for (const char* other : {"KHR_texture_basisu", "EXT_texture_avif"})
+    bad(
+        [&](Json& json) {
+          json["textures"][0].erase("source");
+          json["textures"][0]["extensions"][other]["source"] = 0;
+        },
+        std::string("has its picture as ") + other + " alone");
   bad([](Json& json) { json["textures"][0]["source"] = 9; }, "images: has no element 9");
   bad([](Json& json) { json["images"][0]["bufferView"] = 99; }, "has no element 99");
   bad([](Json& json) { json["images"][0].erase("bufferView"); }, "has no \"bufferView\"");
@@ -138,6 +139,28 @@ TEST(TextureFile, WhatIsNotReadIsSaid) {
   bad([&](Json& json) { view(json)["byteOffset"] = 1LL << 39; }, "is past its buffer's end");
   bad([&](Json& json) { view(json)["byteLength"] = 40; }, "images[0]");
   bad([&](Json& json) { view(json)["buffer"] = 1; }, "no such buffer");
+}
+
+// The mesh has one set of coordinates a material: a picture that takes others does not fit it.
+TEST(TextureFile, SlotsShareTheirCoordinates) {
+  const TemporaryFolder folder;
+  const std::string glb = textured_cube(folder);
+  const auto with = [&](const auto& change) {
+    return folder.add("a.glb", changed(glb, [&](Json& json) { change(json["materials"][0]); }))
+        .string();
+  };
+  const auto change_both = [](Json& material) {
+    material["normalTexture"]["texCoord"] = 1;
+    material["pbrMetallicRoughness"]["baseColorTexture"]["texCoord"] = 1;
+  };
+  EXPECT_EQ(read_texture(with(change_both) + "#normal").width_px, 3);
+  EXPECT_EQ(read_texture(with(change_both)).width_px, 2);
+  const auto change_one = [](Json& material) {
+    material["normalTexture"]["extensions"]["KHR_texture_transform"]["scale"] = {2, 2};
+  };
+  EXPECT_EQ(read_texture(with(change_one)).width_px, 2);
+  EXPECT_INPUT_ERROR(read_texture(with(change_one) + "#normal"),
+                     "materials[0]: its texture in the slot normal has other texture coordinates");
 }
 
 // WebP stands in an extension; a PNG or JPEG beside it comes first.

@@ -33,7 +33,8 @@ void declare(Tool& tool, Options& options) {
 
 int run(Tool& tool, const Options& options) {
   const int n_threads = tool.common().n_threads;
-  const Scene scene = read_scene(options.inputs.scene_file, {.n_threads = n_threads});
+  const Scene scene =
+      read_scene(options.inputs.scene_file, {.n_threads = n_threads, .limits = mesh_limits(tool)});
   register_scene_files(tool, scene, options.inputs.scene_file);
   const CellSet cells = read_cells(options.inputs.cells_file);
   check_cells_of_scene(cells, scene, options.inputs.cells_file);

@@ -72,7 +72,8 @@ Json format_counts(const DeriveCounts& counts, std::size_t n_cells, std::size_t 
 
 int run(Tool& tool, Representation kind, Options& options) {
   const int n_threads = tool.common().n_threads;
-  const Scene scene = read_scene(options.scene_file, {.n_threads = n_threads});
+  const Scene scene =
+      read_scene(options.scene_file, {.n_threads = n_threads, .limits = mesh_limits(tool)});
   register_scene_files(tool, scene, options.scene_file);
   const CellSet cells = read_cells(options.cells_file);
   check_cells_of_scene(cells, scene, options.cells_file);

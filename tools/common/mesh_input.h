@@ -9,12 +9,17 @@
 
 namespace viewcell {
 
-/// read_mesh (formats/mesh_file.h); its remarks go to the tool. hash: of the file's bytes, if
-/// wanted.
+/// --max-triangles, where the tool has it (Tool::add_mesh_limit).
+inline MeshLimits mesh_limits(const Tool& tool) {
+  return {.max_triangles = tool.common().max_triangles};
+}
+
+/// read_mesh (formats/mesh_file.h) within mesh_limits(); its remarks go to the tool. hash: of the
+/// file's bytes, if wanted.
 inline TriMesh read_mesh_input(const Tool& tool, const std::filesystem::path& file,
                                std::string* hash = nullptr) {
   MeshSource source;
-  TriMesh mesh = read_mesh(file, &source);
+  TriMesh mesh = read_mesh(file, &source, mesh_limits(tool));
   tool.remark(file, source.remarks);
   if (hash != nullptr) *hash = source.hash;
   return mesh;
@@ -24,7 +29,7 @@ inline TriMesh read_mesh_input(const Tool& tool, const std::filesystem::path& fi
 inline TriMesh read_surface_input(const Tool& tool, const std::filesystem::path& file,
                                   std::string* hash = nullptr) {
   MeshSource source;
-  TriMesh mesh = read_surface(file, &source);
+  TriMesh mesh = read_surface(file, &source, mesh_limits(tool));
   tool.remark(file, source.remarks);
   if (hash != nullptr) *hash = source.hash;
   return mesh;

@@ -12,15 +12,16 @@ std::filesystem::path file_of_list(const std::string& list) {
 
 }  // namespace
 
-void declare_scene_inputs(Command& command, Target scene_file, Target cells_file,
+void declare_scene_inputs(Tool& tool, Target scene_file, Target cells_file,
                           std::string* cell_list) {
-  command.add_option("scene", scene_file, "scene.json").required().reads("the scene that is read");
-  command.add_option("cells", cells_file, "cells.json")
+  tool.add_option("scene", scene_file, "scene.json").required().reads("the scene that is read");
+  tool.add_option("cells", cells_file, "cells.json")
       .required()
       .reads("the file of cells that is read");
-  command.add_option("--cells", cell_list, "all | 3,7,10-19 | @FILE | path:path.json")
+  tool.add_option("--cells", cell_list, "all | 3,7,10-19 | @FILE | path:path.json")
       .show_default()
       .reads("the file of --cells", file_of_list);
+  tool.add_mesh_limit(tool);
 }
 
 void register_scene_files(Tool& tool, const Scene& scene, const std::filesystem::path& scene_file) {

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "common/mesh_input.h"
 #include "common/tool.h"
 #include "scene/scene.h"
 
@@ -14,9 +15,8 @@ inline const std::vector<std::string> kCellMeshFiles = {"cell-*.ply"};
 /// All that stands in a bundle's folder is the bundle's.
 inline const std::vector<std::string> kBundleFiles = {"**"};
 
-/// Declares scene.json, cells.json and --cells.
-void declare_scene_inputs(Command& command, Target scene_file, Target cells_file,
-                          std::string* cell_list);
+/// Declares scene.json, cells.json, --cells and --max-triangles.
+void declare_scene_inputs(Tool& tool, Target scene_file, Target cells_file, std::string* cell_list);
 
 /// Registers the files that scene.json names: they are inputs, too. Says what was passed over in
 /// them.

@@ -258,6 +258,16 @@ void Tool::add_output_stem(const std::string& description) {
   declare_output(description, true);
 }
 
+void Tool::add_mesh_limit(Command& command) {
+  constexpr std::size_t kMost = 4294967295;  // a vertex is a number of 32 bits
+  command
+      .add_option(
+          "--max-triangles", &common_.max_triangles,
+          "a mesh file that would grow to more, by instances or packed, is refused before it "
+          "does (default: 16777216, or 8 for each of its bytes where that is more)")
+      .check(in_range(std::size_t{1}, kMost));
+}
+
 Option& Tool::declare_output(const std::string& description, bool required) {
   Option& option = add_option("-o,--output", &common_.output, description);
   option.is_required = required;

@@ -17,10 +17,11 @@ inline constexpr int kOverThreshold = 5;
 
 /// The options that every tool has.
 struct CommonOptions {
-  std::string output;     ///< -o
-  bool quiet = false;     ///< -q: no progress, no summary on stderr
-  int n_threads = 0;      ///< -j: 0 = all cores
-  std::string json_file;  ///< --json: a report, "-" = standard output
+  std::string output;             ///< -o
+  bool quiet = false;             ///< -q: no progress, no summary on stderr
+  int n_threads = 0;              ///< -j: 0 = all cores
+  std::string json_file;          ///< --json: a report, "-" = standard output
+  std::size_t max_triangles = 0;  ///< --max-triangles, of tools that read meshes; 0: as read_mesh
 };
 
 /// A tool: its command line, declared in the constructor's caller, and its common options.
@@ -37,6 +38,8 @@ class Tool : public Command {
   void add_output_folder(const std::string& description, const std::vector<std::string>& inside,
                          bool required = true);
   void add_output_stem(const std::string& description);
+  /// Declares --max-triangles, of the tool or of one of its commands (read_mesh_input).
+  void add_mesh_limit(Command& command);
 
   /// Parses; prepares: what the command line alone shows to be wrong, and files that it names
   /// indirectly; checks all files; runs. Turns exceptions into one line on stderr and an exit code.

@@ -40,7 +40,8 @@ void with_engine(const DepthcapArguments& a, const Scene& scene, int n_threads,
 
 int run(Tool& tool, const DepthcapArguments& a) {
   const int n_threads = tool.common().n_threads;
-  const Scene scene = read_scene(a.scene_file, {.n_threads = n_threads});
+  const Scene scene =
+      read_scene(a.scene_file, {.n_threads = n_threads, .limits = mesh_limits(tool)});
   register_scene_files(tool, scene, a.scene_file);
   const CellSet cells = read_cells(a.cells_file);
   check_cells_of_scene(cells, scene, a.cells_file);

@@ -40,12 +40,14 @@ void declare(Tool& tool, Options& options) {
   tool.add_option("--svg", &options.svg_file, "draw a map of cells and objects").writes();
   tool.add_option("--path", &options.path_file, "path.json to draw into the map")
       .reads("the path that is read");
+  tool.add_mesh_limit(tool);
   tool.add_output("cells.json to write (-: stdout)");
 }
 
 int run(Tool& tool, const Options& options) {
   const EyeHeight eye_height = parse_eye_height(options.eye_height);
-  const Scene scene = read_scene(options.scene_file, {.n_threads = tool.common().n_threads});
+  const Scene scene = read_scene(
+      options.scene_file, {.n_threads = tool.common().n_threads, .limits = mesh_limits(tool)});
   register_scene_files(tool, scene, options.scene_file);
   const CellSet cells = make_cells(scene, options.size, eye_height);
   const Json made_by = make_provenance(

@@ -49,6 +49,7 @@ void declare_arguments(Tool& tool, MeshdistArguments& arguments) {
   tool.add_option("--fail-above", &arguments.fail_above,
                   "exit with 5 when the symmetric maximum is above this")
       .check(within(0, 1e300));
+  tool.add_mesh_limit(tool);
   tool.add_output("write the table to this file (default -: standard output)", false);
 }
 

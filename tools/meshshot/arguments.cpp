@@ -91,6 +91,7 @@ void declare_outputs(Tool& tool, MeshshotArguments& o) {
                   "the contact sheet's file (default: DIR.sheet.png, beside the folder)");
   tool.add_flag("--no-sheet", &o.no_sheet, "write no contact sheet").excludes("--sheet");
   tool.add_option("--gl", &o.gl, "osmesa | egl").show_default();
+  tool.add_mesh_limit(tool);
   tool.add_output_folder("folder DIR of pictures to write, view-00.png and on", {"view-*.png"});
 }
 

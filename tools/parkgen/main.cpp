@@ -4,6 +4,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/folder_lock.h"
+#include "common/mesh_input.h"
 #include "common/provenance.h"
 #include "common/tool.h"
 #include "park/models.h"
@@ -32,6 +33,7 @@ void declare(Tool& tool, Options& options) {
                   "folder of real models (models.json, or files named by kind)")
       .reads("the folder of models that is read", {"*"});
   tool.add_option("--seed", &options.seed, "of all that is random").show_default();
+  tool.add_mesh_limit(tool);
   tool.add_flag("--list", &options.list, "print the kinds of statue and stop");
   tool.add_output_folder("folder to write: scene.json, path.json, meshes/",
                          {"scene.json", "path.json", "meshes/*"}, false);
@@ -79,7 +81,7 @@ int run(const Tool& tool, const Options& options) {
   const ParkPreset& preset = find_preset(options.preset);
   if (tool.common().output.empty()) throw UsageError("-o FOLDER is missing");
   const int n_threads = tool.common().n_threads;
-  ParkMeshes meshes = make_park_meshes(options.models_folder, n_threads);
+  ParkMeshes meshes = make_park_meshes(options.models_folder, n_threads, mesh_limits(tool));
   for (const std::string& note : meshes.notes) tool.say(note);
   for (const auto& [file, remarks] : meshes.remarks) tool.remark(file, remarks);
   Json inputs = Json::object();  // the models' hashes

@@ -50,6 +50,7 @@ PlayerOptions make_player_options(const Tool& tool, const PlayArguments& o) {
 }  // namespace
 
 void declare_arguments(Tool& tool, PlayArguments& o) {
+  tool.add_mesh_limit(tool);
   tool.add_option("bundle", &o.bundle, "folder of the bundle")
       .required()
       .reads("the bundle that is read", kBundleFiles);

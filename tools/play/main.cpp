@@ -2,6 +2,7 @@
 #include <iostream>
 
 #include "base/file.h"
+#include "common/mesh_input.h"
 #include "image/io.h"
 #include "play/arguments.h"
 #include "play/plots.h"
@@ -37,7 +38,8 @@ int run(const Tool& tool, const PlayArguments& o, const PlayerOptions& player_op
   Remarks remarks;
   const CameraPath path = read_path(o.path_file, &remarks);
   tool.remark(o.path_file, remarks);
-  const Bundle bundle(o.bundle, tool.common().n_threads);
+  const Bundle bundle(o.bundle,
+                      {.n_threads = tool.common().n_threads, .limits = mesh_limits(tool)});
   Player player(bundle, player_options);
   const Session session = run_session(player, bundle, path, o.session, tool.progress("frames"));
   warn_of_stand_ins(tool, session.timeline, bundle.cells(), player_options.with_lod);

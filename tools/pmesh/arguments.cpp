@@ -10,11 +10,12 @@ namespace {
 
 constexpr std::uint64_t kMostFaces = 4'000'000'000;
 
-void declare_build(Command& command, PmeshArguments& a) {
-  Command& build = command.add_command("build", "collapse a mesh and keep every step");
+void declare_build(Tool& tool, PmeshArguments& a) {
+  Command& build = tool.add_command("build", "collapse a mesh and keep every step");
   build.add_option("MODEL", &a.model, "mesh: OBJ, PLY, OFF, STL, glTF, 3DS")
       .required()
       .reads("the mesh that is read");
+  tool.add_mesh_limit(build);
   build
       .add_option("--metric", &a.metric,
                   "qem3: quadrics; qem5: of position and texture; aps: texture deviation; mapping: "

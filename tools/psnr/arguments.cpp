@@ -58,6 +58,7 @@ void declare_arguments(Tool& tool, PsnrArguments& arguments) {
       .show_default();
   tool.add_flag("--ssim,!--no-ssim", &arguments.options.measures.ssim,
                 "measure SSIM (default: yes)");
+  tool.add_mesh_limit(tool);
   tool.add_output("write the table to this file (default -: standard output)", false);
 }
 

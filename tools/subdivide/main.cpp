@@ -38,6 +38,7 @@ void declare(Tool& tool, Arguments& a) {
                   "outlines stay | linear: on each triangle as before")
       .show_default()
       .check(one_of(kTexcoords));
+  tool.add_mesh_limit(tool);
   tool.add_output("mesh to write: .obj or .ply (-: an OBJ)");
 }
 

@@ -62,6 +62,7 @@ void declare_arguments(Tool& tool, UvpatchArguments& a) {
   declare_max_pixels(tool, &a.max_pixels);
   number("--texture-size", a.size_px, kMaxImageSidePx, "pixels a side of the checker board");
   number("--squares", a.n_squares, kMaxImageSidePx, "squares a side of the checker board");
+  tool.add_mesh_limit(tool);
   tool.add_output("OBJ to write, MTL and picture beside it (-: the OBJ alone)");
 }
 
