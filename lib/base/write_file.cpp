@@ -11,7 +11,7 @@ namespace fs = std::filesystem;
 namespace {
 
 // A name is lost when another process takes it for a leftover before it is locked.
-constexpr int kMostTries = 100;
+constexpr int kMostNames = 100;
 
 void write_all(int fd, std::string_view bytes, const std::string& name) {
   while (!bytes.empty()) {
@@ -75,7 +75,7 @@ PendingFile::PendingFile(fs::path target, std::string_view bytes) : target_(std:
 }
 
 void PendingFile::write_named(std::string_view bytes) {
-  for (int n_tries = 0; n_tries < kMostTries; ++n_tries) {
+  for (int n_tries = 0; n_tries < kMostNames; ++n_tries) {
     const fs::path name = temporary_beside(target_);
     const bool made = temporary_.make(name, [&] {
       lock_ = open_new(name);
@@ -104,7 +104,7 @@ void PendingFile::commit(const std::function<void()>& once_there) {
 
 PendingFolder::PendingFolder(const fs::path& target) {
   remove_leftovers(folder_of(target));
-  for (int n_tries = 0; n_tries < kMostTries; ++n_tries) {
+  for (int n_tries = 0; n_tries < kMostNames; ++n_tries) {
     const fs::path name = temporary_beside(target);
     if (!folder_.make(name, [&] { return ::mkdir(name.c_str(), 0700) == 0; })) break;
     lock_ = Descriptor(::open(name.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC));

@@ -56,7 +56,8 @@ void remove_version_1(const fs::path& folder) {
          at.increment(error))
       if (has_name(at->path(), start, end)) files.push_back(at->path());
   try {
-    for (const SceneMesh& mesh : read_scene(folder / "scene.json", {.with_meshes = false}).meshes)
+    for (const SceneMesh& mesh :
+         read_scene(folder / "scene.json", {.with_meshes = false, .limits = {}}).meshes)
       files.push_back(folder / mesh.file);
   } catch (const InputError&) {  // then its meshes stay
   }

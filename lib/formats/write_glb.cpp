@@ -20,7 +20,7 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "GLB is written as it lies in memory");
 
-constexpr int kFloat = 5126, kUnsignedShort = 5123, kUnsignedInt = 5125;
+constexpr int kGltfFloat = 5126, kGltfUnsignedShort = 5123, kGltfUnsignedInt = 5125;
 constexpr int kVertexData = 34962, kIndexData = 34963;
 constexpr int kLinear = 9729, kLinearMipmapLinear = 9987;
 
@@ -112,7 +112,7 @@ std::vector<glm::vec3> pick(const std::vector<glm::vec3>& values,
 }
 
 std::size_t add_positions(Content& content, const std::vector<glm::vec3>& positions) {
-  const std::size_t id = add_accessor(content, positions, kFloat, "VEC3", kVertexData);
+  const std::size_t id = add_accessor(content, positions, kGltfFloat, "VEC3", kVertexData);
   glm::vec3 lo = positions[0], hi = positions[0];
   for (const glm::vec3& p : positions) lo = glm::min(lo, p), hi = glm::max(hi, p);
   content.accessors[id]["min"] = Json::array({lo.x, lo.y, lo.z});
@@ -123,9 +123,9 @@ std::size_t add_positions(Content& content, const std::vector<glm::vec3>& positi
 // 65535 itself would be the mark that restarts a strip.
 std::size_t add_indices(Content& content, const SplitMesh& split) {
   if (split.source.size() > 65535)
-    return add_accessor(content, split.indices, kUnsignedInt, "SCALAR", kIndexData);
+    return add_accessor(content, split.indices, kGltfUnsignedInt, "SCALAR", kIndexData);
   const std::vector<std::uint16_t> small(split.indices.begin(), split.indices.end());
-  return add_accessor(content, small, kUnsignedShort, "SCALAR", kIndexData);
+  return add_accessor(content, small, kGltfUnsignedShort, "SCALAR", kIndexData);
 }
 
 std::vector<glm::vec4> tangents_for(const TriMesh& mesh, const GlbOptions& options) {
@@ -138,16 +138,16 @@ Json add_primitive(Content& content, const TriMesh& mesh, const GlbOptions& opti
   Json attributes{{"POSITION", add_positions(content, pick(mesh.positions, split.source))}};
   const auto add = [&](const char* name, const std::vector<glm::vec3>& values) {
     attributes[name] =
-        add_accessor(content, pick(values, split.source), kFloat, "VEC3", kVertexData);
+        add_accessor(content, pick(values, split.source), kGltfFloat, "VEC3", kVertexData);
   };
   if (!mesh.normals.empty()) add("NORMAL", mesh.normals);
   if (!split.texcoords.empty()) {
     std::vector<glm::vec2> turned = split.texcoords;
     for (glm::vec2& uv : turned) uv.y = 1 - uv.y;
-    attributes["TEXCOORD_0"] = add_accessor(content, turned, kFloat, "VEC2", kVertexData);
+    attributes["TEXCOORD_0"] = add_accessor(content, turned, kGltfFloat, "VEC2", kVertexData);
   }
   if (!split.tangents.empty())
-    attributes["TANGENT"] = add_accessor(content, split.tangents, kFloat, "VEC4", kVertexData);
+    attributes["TANGENT"] = add_accessor(content, split.tangents, kGltfFloat, "VEC4", kVertexData);
   if (!mesh.colors.empty() && options.base_color.empty()) add("COLOR_0", mesh.colors);
   return {{"attributes", attributes}, {"indices", add_indices(content, split)}, {"material", 0}};
 }

@@ -21,6 +21,12 @@
 #include "image/library.h"
 
 namespace viewcell {
+// Not in the namespace without a name: CaptureFile::Input, which others know of, holds one.
+struct CloseStream {
+  void operator()(std::FILE* stream) const { std::fclose(stream); }
+};
+using Stream = std::unique_ptr<std::FILE, CloseStream>;
+
 namespace {
 
 constexpr const char* kEmptyName = "empty";
@@ -147,11 +153,6 @@ class FileInMemory {
  private:
   Descriptor fd_;
 };
-
-struct CloseStream {
-  void operator()(std::FILE* stream) const { std::fclose(stream); }
-};
-using Stream = std::unique_ptr<std::FILE, CloseStream>;
 
 // The writer's last flush tells no one when there was no room.
 bool is_whole(const FileInMemory& file) {
