@@ -8,6 +8,7 @@
 #include "base/file.h"
 #include "formats/mesh_limits.h"
 #include "formats/readers.h"
+#include "formats/text_cursor.h"
 #include "mesh/surface_samples.h"
 
 namespace viewcell {
@@ -51,11 +52,6 @@ Reader reader_by_name(const std::filesystem::path& file) {
   return nullptr;
 }
 
-bool starts_as_off(std::string_view bytes) {
-  const std::string_view word = bytes.substr(0, bytes.find_first_of(" \t\r\n"));
-  return word.size() <= 7 && word.ends_with("OFF");  // STCNOFF has them all
-}
-
 // A vertex in a line of its own.
 bool has_obj_vertex(std::string_view bytes) {
   return bytes.starts_with("v ") || bytes.find("\nv ") != std::string_view::npos;
@@ -67,8 +63,9 @@ Reader reader_by_content(std::string_view bytes) {
   if (bytes.starts_with("\x1f\x8b")) return plain<parse_gzipped_ply>;
   if (bytes.starts_with("glTF") || bytes.starts_with("{")) return parse_gltf;
   if (starts_as_off(bytes)) return plain<parse_off>;
-  if (is_binary_stl(bytes) || bytes.starts_with("solid")) return plain<parse_stl>;
+  if (is_binary_stl(bytes)) return plain<parse_stl>;
   if (bytes.starts_with("MM")) return plain<parse_3ds>;
+  if (may_be_stl(bytes)) return plain<parse_stl>;
   if (has_obj_vertex(bytes)) return plain<parse_obj>;
   return nullptr;
 }
@@ -78,6 +75,31 @@ Reader reader_by_content(std::string_view bytes) {
   for (const auto& [ending, reader] : kFormats)
     known += (known.empty() ? "" : ", ") + std::string(ending);
   throw InputError(file.string(), "", "is of no known mesh format (" + known + ")");
+}
+
+// What the file holds; there may be no faces.
+TriMesh read_any(const std::filesystem::path& file, MeshSource* source, const MeshLimits& limits) {
+  const std::string bytes = read_file(file);
+  Remarks* remarks = source == nullptr ? nullptr : &source->remarks;
+  // The comment of a binary STL may begin with any bytes.
+  const std::string_view content =
+      is_binary_stl(bytes) ? bytes : skip_byte_order_mark(bytes, file.string());
+  Reader reader = reader_by_name(file);
+  if (reader == nullptr) reader = reader_by_content(content);
+  if (reader == nullptr) refuse_format(file);
+  TriMesh mesh = reader(content, file, remarks, limits);
+  const auto n = static_cast<double>(mesh.triangles.size());
+  if (const double most = most_triangles(limits, bytes.size()); n > most)
+    throw InputError(file.string(), "", describe_growth(n, "triangles", most));
+  if (source != nullptr) source->hash = hash_hex(bytes);
+  check_mesh(mesh, file.string());
+  normalize_normals(mesh, remarks);
+  return mesh;
+}
+
+void check_area(const TriMesh& mesh, const std::filesystem::path& file) {
+  if (!(surface_area(mesh) > 0))
+    throw InputError(file.string(), "", "has no area: every face is a line or a point");
 }
 
 }  // namespace
@@ -90,25 +112,23 @@ std::string describe_growth(double n, const char* of_what, double most) {
 }
 
 TriMesh read_mesh(const std::filesystem::path& file, MeshSource* source, const MeshLimits& limits) {
-  const std::string bytes = read_file(file);
-  Reader reader = reader_by_name(file);
-  if (reader == nullptr) reader = reader_by_content(bytes);
-  if (reader == nullptr) refuse_format(file);
-  TriMesh mesh = reader(bytes, file, source == nullptr ? nullptr : &source->remarks, limits);
-  const auto n = static_cast<double>(mesh.triangles.size());
-  if (const double most = most_triangles(limits, bytes.size()); n > most)
-    throw InputError(file.string(), "", describe_growth(n, "triangles", most));
-  if (source != nullptr) source->hash = hash_hex(bytes);
-  check_mesh(mesh, file.string());
-  normalize_normals(mesh);
+  TriMesh mesh = read_any(file, source, limits);
+  if (mesh.triangles.empty()) throw InputError(file.string(), "", "has no faces");
   return mesh;
 }
 
 TriMesh read_surface(const std::filesystem::path& file, MeshSource* source,
                      const MeshLimits& limits) {
   TriMesh mesh = read_mesh(file, source, limits);
-  if (!(surface_area(mesh) > 0))
-    throw InputError(file.string(), "", "has no area: every face is a line or a point");
+  check_area(mesh, file);
+  return mesh;
+}
+
+TriMesh read_surface_or_points(const std::filesystem::path& file, MeshSource* source,
+                               const MeshLimits& limits) {
+  TriMesh mesh = read_any(file, source, limits);
+  if (mesh.positions.empty()) throw InputError(file.string(), "", "has no vertices");
+  if (!mesh.triangles.empty()) check_area(mesh, file);
   return mesh;
 }
 

@@ -163,6 +163,14 @@ std::vector<float> PlyDocument::floats(std::string_view element_name,
   return out;
 }
 
+std::vector<double> PlyDocument::doubles(std::string_view element_name,
+                                         std::string_view property) const {
+  const PlyColumn& found = column_of_kind(*this, element_name, property, false);
+  return std::visit(
+      [](const auto& values) { return std::vector<double>(values.begin(), values.end()); },
+      found.values);
+}
+
 std::vector<std::uint32_t> PlyDocument::uints(std::string_view element_name,
                                               std::string_view property, std::uint32_t most) const {
   return whole_numbers(*this, element_name, column_of_kind(*this, element_name, property, false),

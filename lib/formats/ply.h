@@ -53,6 +53,8 @@ struct PlyDocument {
 
   /// A scalar column of any type as finite floats.
   std::vector<float> floats(std::string_view element, std::string_view property) const;
+  /// A scalar column of any type as it is, NaN too.
+  std::vector<double> doubles(std::string_view element, std::string_view property) const;
   /// A scalar column of any type as whole numbers, each at most `most`.
   std::vector<std::uint32_t> uints(std::string_view element, std::string_view property,
                                    std::uint32_t most = 0xffffffffu) const;
@@ -83,7 +85,14 @@ void add_vec3s(PlyElement& element, const std::array<const char*, 3>& names,
 void add_triangles(PlyElement& element, const std::string& name,
                    const std::vector<Triangle>& triangles);
 
-/// Parses ASCII, binary little-endian and binary big-endian documents. Every count is checked
+/// The element "vertex" of a mesh that we write: x y z, floats or about an offset doubles where the
+/// vertices are, and nx ny nz where there are normals by vertex.
+PlyElement make_vertices(const TriMesh& mesh);
+/// What says the offset of a mesh, if it has one (mesh/offset.h): "offset X Y Z".
+std::vector<std::string> offset_comments(const TriMesh& mesh);
+
+/// Parses ASCII, binary little-endian and binary big-endian documents. Comments may stand anywhere
+/// in the header. "nan", "inf" and the like are NaN. Every count is checked
 /// against the bytes that are left before anything is allocated for it; memory stays within a small
 /// multiple of the bytes. Throws InputError (file, line or row).
 PlyDocument parse_ply(std::string_view bytes, const std::string& file);

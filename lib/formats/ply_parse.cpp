@@ -41,9 +41,9 @@ class HeaderParser {
 
   Header parse() {
     if (next_line() != "ply") fail("is not a PLY file: its first line is not 'ply'");
-    parse_format(next_line());
     for (std::string_view line = next_line(); line != "end_header"; line = next_line())
       parse_line(line);
+    if (!has_format_) fail("the header has no line 'format'");
     header_.n_bytes = at_;
     return header_;
   }
@@ -76,14 +76,17 @@ class HeaderParser {
     }
   }
 
-  void parse_format(std::string_view line) {
-    if (line == "format ascii 1.0") return;
-    if (line == "format binary_little_endian 1.0")
-      header_.encoding = Encoding::kLittleEndian;
-    else if (line == "format binary_big_endian 1.0")
-      header_.encoding = Encoding::kBigEndian;
-    else
+  void parse_format(const std::vector<std::string_view>& words) {
+    static constexpr std::string_view kEncodings[] = {"ascii", "binary_little_endian",
+                                                      "binary_big_endian"};  // Encoding's order
+    const auto* found = words.size() == 3 && words[2] == "1.0"
+                            ? std::find(std::begin(kEncodings), std::end(kEncodings), words[1])
+                            : std::end(kEncodings);
+    if (found == std::end(kEncodings))
       fail("expected 'format ascii|binary_little_endian|binary_big_endian 1.0'");
+    if (has_format_) fail("the format stands twice");
+    header_.encoding = static_cast<Encoding>(found - std::begin(kEncodings));
+    has_format_ = true;
   }
 
   void parse_line(std::string_view line) {
@@ -91,12 +94,15 @@ class HeaderParser {
     if (words.empty() || words[0] == "obj_info") return;
     if (words[0] == "comment")
       document_.comments.emplace_back(line.substr(std::min(line.size(), line.find("comment") + 8)));
+    else if (words[0] == "format")
+      parse_format(words);
     else if (words[0] == "element" && words.size() == 3)
       add_element(words[1], words[2]);
     else if (words[0] == "property" && (words.size() == 3 || words.size() == 5))
       add_property(words);
     else
-      fail("expected comment, element, property or end_header");
+      fail(has_format_ ? "expected comment, element, property or end_header"
+                       : "expected 'format ascii|binary_little_endian|binary_big_endian 1.0'");
   }
 
   void add_element(std::string_view name, std::string_view count) {
@@ -154,6 +160,7 @@ class HeaderParser {
   std::string_view bytes_;
   PlyDocument& document_;
   Header header_;
+  bool has_format_ = false;
   std::size_t at_ = 0;
 };
 
@@ -198,16 +205,19 @@ void start_rows(PlyElement& element) {
 template <typename T>
 T parse_value(TextCursor& text, const PlyElement& element, std::uint64_t row) {
   if constexpr (std::is_integral_v<T>) {
-    return static_cast<T>(text.integer(text.word(), element.name.c_str(), row,
-                                       std::numeric_limits<T>::min(),
-                                       std::numeric_limits<T>::max()));
+    // Some writers call bytes of colours char.
+    constexpr std::int64_t kMost =
+        std::is_same_v<T, std::int8_t> ? 255 : std::int64_t{std::numeric_limits<T>::max()};
+    return static_cast<T>(
+        text.integer(text.word(), element.name.c_str(), row, std::numeric_limits<T>::min(), kMost));
   } else {
     const std::string_view word = text.word();
     T value;
-    if (!parse_finite(word, value))
-      text.fail(element.name + " " + std::to_string(row) + ": '" + std::string(word.substr(0, 40)) +
-                "' is not a finite number");
-    return value;
+    double other;
+    if (parse_finite(word, value)) return value;
+    if (parse_float_or_nan(word, other)) return std::numeric_limits<T>::quiet_NaN();
+    text.fail(element.name + " " + std::to_string(row) + ": '" + std::string(word.substr(0, 40)) +
+              "' is not a finite number");
   }
 }
 
@@ -356,6 +366,7 @@ void parse_binary(PlyDocument& document, std::string_view body, Encoding encodin
 PlyDocument parse_ply(std::string_view bytes, const std::string& file) {
   PlyDocument document;
   document.file = file;
+  bytes = skip_byte_order_mark(bytes, file);
   const Header header = HeaderParser(bytes, document).parse();
   const std::string_view body = bytes.substr(header.n_bytes);
   if (header.encoding == Encoding::kAscii)

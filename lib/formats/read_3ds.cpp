@@ -2,6 +2,7 @@
 // Differs: not by lib3ds (1.3.0 tried), which reads corner 60000 of three vertices while it opens a
 // file, to compute normals, and writes a material's name at face 60000 of one.
 #include "formats/byte_cursor.h"
+#include "formats/face_list.h"
 #include "formats/material_ids.h"
 #include "formats/readers.h"
 
@@ -17,6 +18,7 @@ enum ChunkId : std::uint16_t {
   kFaces = 0x4120,
   kFaceMaterial = 0x4130,
   kTexcoords = 0x4140,
+  kSmoothing = 0x4150,
 };
 
 // One object's arrays, before it is appended to the mesh.
@@ -32,6 +34,7 @@ struct State {
   MaterialIds material_ids;
   std::vector<std::int32_t> materials;  // per triangle of the mesh
   bool has_texcoords = false;
+  std::size_t n_grouped = 0;  // faces with smoothing groups of their own
 };
 
 // Calls body(id, content) for each chunk.
@@ -73,6 +76,15 @@ void read_face_material(ByteCursor cursor, State& state, Object& object) {
   }
 }
 
+// A mask of groups each: where one differs from the first, some edge is hard.
+std::size_t count_grouped(ByteCursor cursor, std::size_t n_faces) {
+  if (n_faces == 0 || cursor.bytes_left() < 4 * n_faces) return 0;
+  const auto first = cursor.read<std::uint32_t>();
+  std::size_t n = first == 0;
+  for (std::size_t f = 1; f < n_faces; ++f) n += cursor.read<std::uint32_t>() != first;
+  return n > 0 ? n_faces : 0;
+}
+
 void read_face_chunk(ByteCursor cursor, State& state, Object& object) {
   object.triangles.resize(cursor.read<std::uint16_t>());
   object.materials.assign(object.triangles.size(), MaterialIds::kNone);
@@ -82,6 +94,7 @@ void read_face_chunk(ByteCursor cursor, State& state, Object& object) {
   }
   for_each_chunk(cursor, [&](std::uint16_t id, ByteCursor content) {
     if (id == kFaceMaterial) read_face_material(content, state, object);
+    if (id == kSmoothing) state.n_grouped += count_grouped(content, object.triangles.size());
   });
 }
 
@@ -124,9 +137,14 @@ void read_object(ByteCursor cursor, State& state) {
   });
 }
 
+std::span<const std::uint32_t> corners_of(const TriMesh& mesh) {
+  if (mesh.triangles.empty()) return {};
+  return {mesh.triangles[0].data(), 3 * mesh.triangles.size()};
+}
+
 }  // namespace
 
-TriMesh parse_3ds(std::string_view bytes, const std::filesystem::path& file, Remarks*) {
+TriMesh parse_3ds(std::string_view bytes, const std::filesystem::path& file, Remarks* remarks) {
   ByteCursor cursor(bytes, file.string());
   if (bytes.size() < 6 || cursor.read<std::uint16_t>() != kMain)
     throw InputError(file.string(), "", "is not a 3DS file");
@@ -142,6 +160,9 @@ TriMesh parse_3ds(std::string_view bytes, const std::filesystem::path& file, Rem
   });
   if (!state.has_texcoords) state.mesh.texcoords.clear();
   state.material_ids.finish(std::move(state.materials), state.mesh);
+  choose_offset_of(corners_of(state.mesh), state.mesh, remarks);
+  add_remark(remarks, "faces with smoothing groups, passed over: all edges are smooth",
+             state.n_grouped);
   return std::move(state.mesh);
 }
 

@@ -1,27 +1,54 @@
 // Source: the Object File Format of Geomview.
+#include <algorithm>
+#include <cctype>
+
 #include "base/error.h"
 #include "base/srgb.h"
+#include "formats/color_range.h"
+#include "formats/face_list.h"
 #include "formats/readers.h"
 #include "formats/text_cursor.h"
 
 namespace viewcell {
 namespace {
 
-struct OffHeader {
+struct OffMagic {
+  bool is_one = false;
   bool has_texcoords = false, has_colors = false, has_normals = false;
-  std::uint64_t n_vertices = 0, n_faces = 0;
+  bool has_other_dimensions = false;
+  std::string_view behind;  // "8" of "OFF8"
 };
 
-// "[ST][C][N][4][n]OFF". False when the word is no such thing.
-bool parse_magic(std::string_view word, OffHeader& header, const TextCursor& text) {
-  if (!word.ends_with("OFF")) return false;
-  word.remove_suffix(3);
-  if (word.starts_with("ST")) header.has_texcoords = true, word.remove_prefix(2);
-  if (word.starts_with("C")) header.has_colors = true, word.remove_prefix(1);
-  if (word.starts_with("N")) header.has_normals = true, word.remove_prefix(1);
-  if (word == "4" || word == "n" || word == "4n") text.fail("only three dimensions are read");
-  return word.empty();
+// "[ST][C][N][4][n]OFF"; all in small letters, "noff" has normals.
+OffMagic parse_magic(std::string_view word) {
+  const auto is_small = [](char c) { return std::islower(static_cast<unsigned char>(c)) != 0; };
+  const bool all_small = std::none_of(word.begin(), word.end(), [](char c) {
+    return std::isupper(static_cast<unsigned char>(c)) != 0;
+  });
+  const auto take = [&](std::string_view part, bool any_case = true) {
+    const auto equal = [&](char a, char b) {
+      return a == b || ((any_case || all_small) && is_small(b) && a == b - 'a' + 'A');
+    };
+    const bool fits =
+        word.size() >= part.size() && std::equal(part.begin(), part.end(), word.begin(), equal);
+    if (fits) word.remove_prefix(part.size());
+    return fits;
+  };
+  OffMagic out;
+  out.has_texcoords = take("ST");
+  out.has_colors = take("C");
+  out.has_normals = take("N", false);
+  out.has_other_dimensions = take("4");
+  out.has_other_dimensions |= take("n");
+  out.is_one = take("OFF");
+  out.behind = word;
+  return out;
 }
+
+struct OffHeader {
+  OffMagic magic;
+  std::uint64_t n_vertices = 0, n_faces = 0;
+};
 
 std::uint64_t parse_count(std::string_view word, const char* what, const TextCursor& text) {
   std::int64_t count;
@@ -30,12 +57,14 @@ std::uint64_t parse_count(std::string_view word, const char* what, const TextCur
   return static_cast<std::uint64_t>(count);
 }
 
-// The counts may stand on the magic's line, and the magic may be left out.
+// The counts may stand on the magic's line or touch it, and the magic may be left out.
 OffHeader parse_header(TextCursor& text) {
   OffHeader header;
   std::string_view word = text.word();
-  if (parse_magic(word, header, text)) {
-    word = text.word();
+  if (const OffMagic magic = parse_magic(word); magic.is_one) {
+    header.magic = magic;
+    if (magic.has_other_dimensions) text.fail("only three dimensions are read");
+    word = magic.behind.empty() ? text.word() : magic.behind;
     if (word == "BINARY") text.fail("binary OFF is not read");
   }
   std::int64_t ignored;
@@ -46,34 +75,15 @@ OffHeader parse_header(TextCursor& text) {
   return header;
 }
 
-// A vertex takes at least "0 0 0\n", a face "3 0 1 2\n"; the last line break may be missing.
+// A vertex takes at least "0 0 0\n", a face "1 0\n"; the last line break may be missing.
 void check_counts(const OffHeader& header, const TextCursor& text) {
+  constexpr std::uint64_t kVertexBytes = 6, kFaceBytes = 2;
   const std::uint64_t most = text.bytes_left() + 1;
-  if (header.n_vertices > most / 6 || header.n_faces > most / 8 ||
-      header.n_vertices * 6 + header.n_faces * 8 > most)
+  if (header.n_vertices > most / kVertexBytes || header.n_faces > most / kFaceBytes ||
+      header.n_vertices * kVertexBytes + header.n_faces * kFaceBytes > most)
     text.fail("claims " + std::to_string(header.n_vertices) + " vertices and " +
               std::to_string(header.n_faces) + " faces, more than the file can hold");
   if (header.n_vertices > 0xffffffffu) text.fail("has more vertices than 32 bits can number");
-}
-
-glm::vec3 read_vec3(TextCursor& text, std::uint64_t vertex) {
-  glm::vec3 v;
-  for (int k = 0; k < 3; ++k) v[k] = text.number(text.word_in_line(), "vertex", vertex);
-  return v;
-}
-
-// Whole numbers are 0 to 255, as writers have it; a decimal point makes them 0 to 1.
-glm::vec3 read_color(TextCursor& text, std::uint64_t vertex) {
-  glm::vec3 color(0);
-  for (int k = 0; k < 3; ++k) {
-    const std::string_view word = text.word_in_line();
-    float value;
-    if (!parse_finite(word, value))
-      text.fail("vertex " + std::to_string(vertex) + ": expected a colour");
-    std::int64_t ignored;
-    color[k] = srgb_decode(parse_integer(word, ignored) ? value / 255 : value);
-  }
-  return color;
 }
 
 // A vertex or face a line: reading on past its end would take a wrong count for a right one.
@@ -81,44 +91,128 @@ void start_line(TextCursor& text) {
   if (text.at_end()) text.fail("the file ends too early");
 }
 
-void read_vertices(TextCursor& text, const OffHeader& header, TriMesh& mesh) {
-  mesh.positions.reserve(header.n_vertices);
-  for (std::uint64_t v = 0; v < header.n_vertices; ++v) {
-    start_line(text);
-    mesh.positions.push_back(read_vec3(text, v));
-    if (header.has_normals) mesh.normals.push_back(read_vec3(text, v));
-    if (header.has_colors) mesh.colors.push_back(read_color(text, v));
-    text.skip_line();
+class OffParser {
+ public:
+  OffParser(std::string_view bytes, const std::string& file, Remarks* remarks)
+      : text_(bytes, file), remarks_(remarks), header_(parse_header(text_)) {
+    check_counts(header_, text_);
   }
-}
 
-void read_faces(TextCursor& text, const OffHeader& header, TriMesh& mesh) {
-  mesh.triangles.reserve(header.n_faces);
-  std::vector<std::uint32_t> polygon;
-  const auto read_integer = [&text](std::uint64_t face, std::int64_t lo, std::int64_t hi) {
-    return text.integer(text.word_in_line(), "face", face, lo, hi);
-  };
-  const auto n_vertices = static_cast<std::int64_t>(header.n_vertices);
-  for (std::uint64_t f = 0; f < header.n_faces; ++f) {
-    start_line(text);
-    polygon.clear();
-    for (std::int64_t left = read_integer(f, 3, 1 << 24); left > 0; --left)
-      polygon.push_back(static_cast<std::uint32_t>(read_integer(f, 0, n_vertices - 1)));
-    append_fan(polygon, mesh.triangles);
-    text.skip_line();
+  TriMesh parse() {
+    read_vertices();
+    read_faces();
+    place_vertices(places_, faces_.vertices, mesh_, remarks_);
+    cut_faces(faces_, mesh_, nullptr, remarks_);
+    for (const auto& color : colors_) mesh_.colors.push_back(decode(color));
+    if (header_.magic.has_texcoords)
+      for (const Triangle& t : mesh_.triangles)
+        for (const std::uint32_t v : t) mesh_.texcoords.push_back(texcoords_[v]);
+    add_remark(remarks_, "faces with colours of their own, which are passed over",
+               n_colored_faces_);
+    return std::move(mesh_);
   }
-}
+
+ private:
+  // As in the file; whether a point or an exponent stood in its line.
+  struct Color {
+    glm::vec3 rgb{0};
+    bool has_point = false;
+  };
+
+  // "x y z [nx ny nz] [r g b [a]] [s t]".
+  void read_vertices() {
+    places_.reserve(header_.n_vertices);
+    for (std::uint64_t v = 0; v < header_.n_vertices; ++v) {
+      start_line(text_);
+      glm::dvec3 place;
+      for (int k = 0; k < 3; ++k) place[k] = text_.coordinate(text_.word_in_line(), "vertex", v);
+      places_.push_back(place);
+      if (header_.magic.has_normals) read_normal(v);
+      if (header_.magic.has_colors || header_.magic.has_texcoords) read_rest(v);
+      text_.skip_line();
+    }
+  }
+
+  // One that is not a number is none (normalize_normals).
+  void read_normal(std::uint64_t vertex) {
+    glm::vec3 normal;
+    for (int k = 0; k < 3; ++k) {
+      const std::string_view word = text_.word_in_line();
+      double value;
+      normal[k] = parse_float_or_nan(word, value) ? static_cast<float>(value)
+                                                  : text_.number(word, "vertex", vertex);
+    }
+    mesh_.normals.push_back(normal);
+  }
+
+  void read_rest(std::uint64_t vertex) {
+    const std::string place = "vertex " + std::to_string(vertex);
+    Color color;
+    std::vector<float> values;
+    for (std::string_view word = text_.word_in_line(); !word.empty(); word = text_.word_in_line()) {
+      float value;
+      if (!parse_finite(word, value)) text_.fail(place + ": expected a colour");
+      color.has_point |= word.find_first_of(".eE") != std::string_view::npos;
+      values.push_back(value);
+    }
+    const std::size_t n_texcoord = header_.magic.has_texcoords ? 2 : 0;
+    if (values.size() < n_texcoord) text_.fail(place + ": a texture coordinate is missing");
+    const std::size_t n_color = values.size() - n_texcoord;
+    if (header_.magic.has_texcoords) texcoords_.emplace_back(values[n_color], values[n_color + 1]);
+    if (!header_.magic.has_colors) return;
+    if (n_color < 3) text_.fail(place + ": expected a colour");
+    for (int k = 0; k < 3; ++k) color.rgb[k] = values[static_cast<std::size_t>(k)];
+    for (std::size_t k = 0; k < n_color; ++k) most_color_ = std::max(most_color_, values[k]);
+    colors_.push_back(color);
+  }
+
+  // Whole numbers are 0 to 255, as writers have it, unless none is above 1; points make them 0 to
+  // 1, unless they are above that.
+  glm::vec3 decode(const Color& color) const {
+    const float own = std::max({color.rgb.r, color.rgb.g, color.rgb.b});
+    const bool is_of_one = most_color_ <= 1 || (color.has_point && full_color(own) == 1);
+    const float full = is_of_one ? 1 : std::max(255.0f, full_color(most_color_));
+    return {srgb_decode(color.rgb.r / full), srgb_decode(color.rgb.g / full),
+            srgb_decode(color.rgb.b / full)};
+  }
+
+  void read_faces() {
+    const auto read_integer = [&](std::uint64_t face, std::int64_t lo, std::int64_t hi) {
+      return text_.integer(text_.word_in_line(), "face", face, lo, hi);
+    };
+    const auto n_vertices = static_cast<std::int64_t>(header_.n_vertices);
+    for (std::uint64_t f = 0; f < header_.n_faces; ++f) {
+      start_line(text_);
+      for (std::int64_t left = read_integer(f, 0, 1 << 24); left > 0; --left)
+        faces_.vertices.push_back(static_cast<std::uint32_t>(read_integer(f, 0, n_vertices - 1)));
+      faces_.end_face();
+      n_colored_faces_ += !text_.word_in_line().empty();
+      text_.skip_line();
+    }
+  }
+
+  TextCursor text_;
+  Remarks* remarks_;
+  OffHeader header_;
+  TriMesh mesh_;
+  std::vector<glm::dvec3> places_;
+  std::vector<Color> colors_;
+  std::vector<glm::vec2> texcoords_;
+  FaceList faces_;
+  float most_color_ = 0;  // of any channel, alpha too
+  std::size_t n_colored_faces_ = 0;
+};
 
 }  // namespace
 
-TriMesh parse_off(std::string_view bytes, const std::filesystem::path& file, Remarks*) {
-  TextCursor text(bytes, file.string());
-  const OffHeader header = parse_header(text);
-  check_counts(header, text);
-  TriMesh mesh;
-  read_vertices(text, header, mesh);
-  read_faces(text, header, mesh);
-  return mesh;
+TriMesh parse_off(std::string_view bytes, const std::filesystem::path& file, Remarks* remarks) {
+  return OffParser(bytes, file.string(), remarks).parse();
+}
+
+bool starts_as_off(std::string_view bytes) {
+  const OffMagic magic = parse_magic(bytes.substr(0, bytes.find_first_of(" \t\r\n")));
+  std::int64_t ignored;
+  return magic.is_one && (magic.behind.empty() || parse_integer(magic.behind, ignored));
 }
 
 }  // namespace viewcell

@@ -1,10 +1,13 @@
 // Source: the STL formats of 3D Systems.
 // Differs: not by ADMesh (0.98.4 tried), which reads a text that is cut in its third facet
 // as two facets, refuses blank lines and several solids, and opens files by name only.
+#include <algorithm>
 #include <bit>
+#include <cctype>
 #include <unordered_map>
 
 #include "formats/byte_cursor.h"
+#include "formats/face_list.h"
 #include "formats/readers.h"
 #include "formats/text_cursor.h"
 
@@ -23,85 +26,110 @@ struct PositionHash {
   }
 };
 
-// Numbers positions in the order of their first appearance.
-class Welder {
- public:
-  explicit Welder(TriMesh& mesh) : mesh_(mesh) {}
-  std::uint32_t add(glm::vec3 p) {
-    p += 0.0f;  // -0 becomes 0: they are equal, and must hash alike
+// Vertices at one position become one, in the order of their first appearance. Three vertices a
+// triangle come in.
+void weld_corners(TriMesh& mesh) {
+  std::unordered_map<glm::vec3, std::uint32_t, PositionHash> ids;
+  std::vector<glm::vec3> corners = std::move(mesh.positions);
+  mesh.positions.clear();
+  mesh.triangles.resize(corners.size() / 3);
+  for (std::size_t c = 0; c < corners.size(); ++c) {
+    const glm::vec3 p = corners[c] + 0.0f;  // -0 becomes 0: they are equal, and must hash alike
     const auto [found, is_new] =
-        ids_.try_emplace(p, static_cast<std::uint32_t>(mesh_.positions.size()));
-    if (is_new) mesh_.positions.push_back(p);
-    return found->second;
+        ids.try_emplace(p, static_cast<std::uint32_t>(mesh.positions.size()));
+    if (is_new) mesh.positions.push_back(p);
+    mesh.triangles[c / 3][c % 3] = found->second;
   }
+}
 
- private:
-  TriMesh& mesh_;
-  std::unordered_map<glm::vec3, std::uint32_t, PositionHash> ids_;
-};
+// ---- binary ----
 
-TriMesh parse_binary_stl(std::string_view bytes, const std::string& file) {
+std::uint32_t stated_facets(std::string_view bytes) {
+  std::uint32_t n;
+  std::memcpy(&n, bytes.data() + 80, sizeof n);
+  return n;
+}
+
+// Programs that write facets as they make them leave 0 or the largest number, which they would have
+// replaced at the end. No text has such bytes.
+bool is_count_left_open(std::string_view bytes) {
+  return bytes.size() > kHeaderBytes &&
+         (stated_facets(bytes) == 0 || stated_facets(bytes) == 0xffffffffu);
+}
+
+TriMesh parse_binary_stl(std::string_view bytes, const std::string& file, Remarks* remarks) {
+  const std::size_t n = (bytes.size() - kHeaderBytes) / kFacetBytes;
+  if (n * kFacetBytes != bytes.size() - kHeaderBytes)
+    throw InputError(file, "facet " + std::to_string(n), "the file ends inside this facet");
+  if (n != stated_facets(bytes))
+    add_remark(remarks, "facets, counted by the file's size: its header does not say how many", n);
   TriMesh mesh;
-  Welder welder(mesh);
   ByteCursor cursor(bytes, file);
-  cursor.take(80);
-  const auto n = cursor.read<std::uint32_t>();
-  mesh.triangles.reserve(n);
-  for (std::uint32_t f = 0; f < n; ++f) {
+  cursor.take(kHeaderBytes);
+  mesh.positions.reserve(3 * n);
+  for (std::size_t f = 0; f < n; ++f) {
     cursor.take(12);  // the normal, which follows from the positions and is often zero
-    Triangle triangle;
-    for (std::uint32_t& corner : triangle) {
+    for (int corner = 0; corner < 3; ++corner) {
       glm::vec3 p;
       for (int k = 0; k < 3; ++k) p[k] = cursor.read<float>();
       // Before welding: NaN equals nothing, and the error should name the facet.
       for (int k = 0; k < 3; ++k)
         if (!(std::abs(p[k]) <= std::numeric_limits<float>::max()))
           throw InputError(file, "facet " + std::to_string(f), "a position is not finite");
-      corner = welder.add(p);
+      mesh.positions.push_back(p);
     }
-    mesh.triangles.push_back(triangle);
     cursor.take(2);
   }
+  choose_offset_of({}, mesh, remarks);
   return mesh;
 }
 
-void expect(TextCursor& text, std::string_view wanted) {
-  if (text.word() != wanted) text.fail("expected '" + std::string(wanted) + "'");
+// ---- text ----
+
+// Keywords are written small or in capitals.
+bool is_word(std::string_view word, std::string_view wanted) {
+  return std::equal(word.begin(), word.end(), wanted.begin(), wanted.end(), [](char a, char b) {
+    return std::tolower(static_cast<unsigned char>(a)) == b;
+  });
 }
 
-Triangle parse_facet(TextCursor& text, std::uint64_t facet, Welder& welder) {
+void expect(TextCursor& text, std::string_view wanted) {
+  if (!is_word(text.word(), wanted)) text.fail("expected '" + std::string(wanted) + "'");
+}
+
+void parse_facet(TextCursor& text, std::vector<glm::dvec3>& corners) {
+  const std::size_t facet = corners.size() / 3;
   expect(text, "normal");
   for (int k = 0; k < 3; ++k) text.word();
   expect(text, "outer");
   expect(text, "loop");
-  Triangle triangle;
-  for (std::uint32_t& corner : triangle) {
+  for (int corner = 0; corner < 3; ++corner) {
     expect(text, "vertex");
-    glm::vec3 p;
-    for (int k = 0; k < 3; ++k) p[k] = text.number(text.word(), "facet", facet);
-    corner = welder.add(p);
+    glm::dvec3 p;
+    for (int k = 0; k < 3; ++k) p[k] = text.coordinate(text.word(), "facet", facet);
+    corners.push_back(p);
   }
   expect(text, "endloop");
   expect(text, "endfacet");
-  return triangle;
 }
 
-TriMesh parse_text_stl(std::string_view bytes, const std::string& file) {
-  TriMesh mesh;
-  Welder welder(mesh);
+TriMesh parse_text_stl(std::string_view bytes, const std::string& file, Remarks* remarks) {
+  std::vector<glm::dvec3> corners;
   TextCursor text(bytes, file, 0);
-  if (text.at_end() || text.word() != "solid")
+  if (text.at_end() || !is_word(text.word(), "solid"))
     text.fail("is not an STL file: neither 'solid' nor as long as a binary file says it is");
   text.skip_line();  // the solid's name
   while (!text.at_end()) {
     const std::string_view word = text.word();
-    if (word == "facet")
-      mesh.triangles.push_back(parse_facet(text, mesh.triangles.size(), welder));
-    else if (word == "endsolid" || word == "solid")
+    if (is_word(word, "facet"))
+      parse_facet(text, corners);
+    else if (is_word(word, "endsolid") || is_word(word, "solid"))
       text.skip_line();  // a file may hold several solids
     else
       text.fail("expected 'facet' or 'endsolid'");
   }
+  TriMesh mesh;
+  place_vertices(corners, {}, mesh, remarks);
   return mesh;
 }
 
@@ -109,15 +137,22 @@ TriMesh parse_text_stl(std::string_view bytes, const std::string& file) {
 
 // Many binary files begin with "solid" like text, so their size decides.
 bool is_binary_stl(std::string_view bytes) {
-  if (bytes.size() < kHeaderBytes) return false;
-  std::uint32_t n;
-  std::memcpy(&n, bytes.data() + 80, sizeof n);
-  return bytes.size() == kHeaderBytes + kFacetBytes * std::uint64_t{n};
+  return bytes.size() >= kHeaderBytes &&
+         bytes.size() == kHeaderBytes + kFacetBytes * std::uint64_t{stated_facets(bytes)};
 }
 
-TriMesh parse_stl(std::string_view bytes, const std::filesystem::path& file, Remarks*) {
-  return is_binary_stl(bytes) ? parse_binary_stl(bytes, file.string())
-                              : parse_text_stl(bytes, file.string());
+bool may_be_stl(std::string_view bytes) {
+  constexpr std::string_view kSolid = "solid";
+  return is_word(bytes.substr(0, kSolid.size()), kSolid) ||
+         (is_count_left_open(bytes) && (bytes.size() - kHeaderBytes) % kFacetBytes == 0);
+}
+
+TriMesh parse_stl(std::string_view bytes, const std::filesystem::path& file, Remarks* remarks) {
+  const bool is_binary = is_binary_stl(bytes) || is_count_left_open(bytes);
+  TriMesh mesh = is_binary ? parse_binary_stl(bytes, file.string(), remarks)
+                           : parse_text_stl(bytes, file.string(), remarks);
+  weld_corners(mesh);
+  return mesh;
 }
 
 }  // namespace viewcell

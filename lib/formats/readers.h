@@ -5,7 +5,6 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <span>
 #include <string>
 #include <string_view>
 
@@ -16,13 +15,18 @@ namespace viewcell {
 TriMesh parse_ply_mesh(std::string_view bytes, const std::filesystem::path& file,
                        Remarks* remarks = nullptr);
 /// OFF, and COFF, NOFF, STOFF and their mixtures; colours of faces are passed over.
+bool starts_as_off(std::string_view bytes);
 TriMesh parse_off(std::string_view bytes, const std::filesystem::path& file,
                   Remarks* remarks = nullptr);
-/// Text or binary, told apart by the size that a binary file states. Equal positions are welded.
+/// Text or binary, told apart by the size that a binary file states. One that states none (0, or
+/// the largest number) holds what its size has room for. Equal positions are welded.
 bool is_binary_stl(std::string_view bytes);
+/// Text, or binary with its count left open.
+bool may_be_stl(std::string_view bytes);
 TriMesh parse_stl(std::string_view bytes, const std::filesystem::path& file,
                   Remarks* remarks = nullptr);
-/// Material libraries that it names must lie in its folder; they may be missing.
+/// Material libraries are kept by name and not opened. Elements may stand below the faces that name
+/// them. Corners whose normal is none (index 0, not a number) have the normal (0, 0, 0).
 TriMesh parse_obj(std::string_view bytes, const std::filesystem::path& file,
                   Remarks* remarks = nullptr);
 /// glTF 2.0 as .glb or .gltf. Buffers are embedded or lie in the file's folder. What it grows to is
@@ -37,14 +41,13 @@ TriMesh parse_3ds(std::string_view bytes, const std::filesystem::path& file,
 /// refused as it comes: meshes do not compress that well.
 std::string gunzip(std::string_view bytes, const std::filesystem::path& file);
 
-/// Adds the triangles (p0, p1, p2), (p0, p2, p3), ... of a polygon of at least three vertices.
-void append_fan(std::span<const std::uint32_t> polygon, std::vector<Triangle>& triangles);
-
-/// What every reader's result must be: at least one face, finite numbers, indices in
-/// range, attribute arrays of the right length. Throws InputError naming the vertex or triangle.
+/// What every reader's result must be: finite numbers (but for normals), indices in range,
+/// attribute arrays of the right length. Throws InputError naming the vertex or triangle.
 void check_mesh(const TriMesh& mesh, const std::string& file);
 
-/// Normals of unit length; a zero normal is computed from the triangles around its vertex.
-void normalize_normals(TriMesh& mesh);
+/// Normals of unit length. Where one is zero or not finite it is computed from the triangles around
+/// its vertex (make_vertex_normals). Normals of corners become normals of vertices where all
+/// corners of every vertex agree.
+void normalize_normals(TriMesh& mesh, Remarks* remarks);
 
 }  // namespace viewcell

@@ -1,14 +1,18 @@
 #include "formats/text_cursor.h"
 
 #include <algorithm>
+#include <bit>
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
+#include <limits>
 
 #include "base/error.h"
 
 namespace viewcell {
 namespace {
+
+constexpr std::string_view kMark = "\xef\xbb\xbf";
 
 bool is_blank(char c) {
   return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f';
@@ -35,13 +39,40 @@ std::string named(const char* what, std::uint64_t id) {
   return what + (" " + std::to_string(id)) + ": ";
 }
 
+// Half way between two floats: rounding it could go the other way than rounding the word.
+bool is_between_floats(double x) {
+  constexpr int kMoreBits = 53 - 24;
+  const auto bits = std::bit_cast<std::uint64_t>(x) & ((1ull << kMoreBits) - 1);
+  return bits == 1ull << (kMoreBits - 1);
+}
+
 }  // namespace
+
+std::string_view skip_byte_order_mark(std::string_view bytes, const std::string& file) {
+  using namespace std::string_view_literals;
+  if (bytes.starts_with(kMark)) return bytes.substr(kMark.size());
+  for (const std::string_view mark : {"\xff\xfe"sv, "\xfe\xff"sv, "\0\0\xfe\xff"sv})
+    if (bytes.starts_with(mark))
+      throw InputError(file, "",
+                       "is text in UTF-16 or UTF-32, which is not read; save it as UTF-8");
+  return bytes;
+}
 
 bool parse_finite(std::string_view word, float& out) {
   return parse_real(word, out);
 }
 bool parse_finite(std::string_view word, double& out) {
   return parse_real(word, out);
+}
+
+bool parse_float_or_nan(std::string_view word, double& out) {
+  if (parse_finite(word, out)) return true;
+  if (!word.empty() && (word[0] == '-' || word[0] == '+')) word.remove_prefix(1);
+  std::string begin(word.substr(0, 3));
+  for (char& c : begin) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  if (begin != "nan" && begin != "inf" && begin != "1.#") return false;
+  out = std::numeric_limits<double>::quiet_NaN();
+  return true;
 }
 
 bool parse_integer(std::string_view word, std::int64_t& out) {
@@ -79,6 +110,16 @@ float TextCursor::number(std::string_view word, const char* what, std::uint64_t 
        (word.empty() ? "a number is missing" : quoted(word) + " is not a finite number"));
 }
 
+double TextCursor::coordinate(std::string_view word, const char* what, std::uint64_t id) const {
+  using Float = std::numeric_limits<float>;
+  double value = 0;
+  const bool is_number = parse_finite(word, value);
+  if (is_number && value == 0) return value;
+  const double size = std::abs(value);
+  if (!is_number || size < Float::min() || size > Float::max()) return number(word, what, id);
+  return is_between_floats(value) ? std::nextafter(value, number(word, what, id)) : value;
+}
+
 std::int64_t TextCursor::integer(std::string_view word, const char* what, std::uint64_t id,
                                  std::int64_t lo, std::int64_t hi) const {
   std::int64_t value;
@@ -101,11 +142,17 @@ bool TextCursor::is_continuation() const {
   return after.starts_with('\n') || after == "\r\n";
 }
 
+bool TextCursor::is_mark() const {
+  return text_[at_] == kMark[0] && text_.substr(at_).starts_with(kMark);
+}
+
 void TextCursor::skip_space_in_line() {
   for (; at_ < text_.size(); ++at_) {
     if (is_continuation()) {
       at_ = text_.find('\n', at_);
       ++line_;
+    } else if (is_mark()) {
+      at_ += kMark.size() - 1;
     } else if (!is_blank(text_[at_])) {
       break;
     }

@@ -7,13 +7,21 @@
 
 namespace viewcell {
 
+/// What is behind a byte order mark (UTF-8), if there is one: editors put it before text of any
+/// format. Throws InputError for marks of UTF-16 and UTF-32.
+std::string_view skip_byte_order_mark(std::string_view bytes, const std::string& file);
+
 /// A word as a finite float; false when it is not one ("nan", "1e99" and "12x" are not).
 bool parse_finite(std::string_view word, float& out);
 bool parse_finite(std::string_view word, double& out);
+/// Like these, and NaN for what programs print where a number is none: "nan", "-inf", "-nan(ind)",
+/// "1.#QNAN".
+bool parse_float_or_nan(std::string_view word, double& out);
 /// A whole number; false when it is not one or does not fit.
 bool parse_integer(std::string_view word, std::int64_t& out);
 
-/// White space separates words; a backslash joins a line to the next; a comment runs from its sign
+/// White space separates words, and so do byte order marks, which files put together have inside; a
+/// backslash joins a line to the next; a comment runs from its sign
 /// to the end of the line. The text must outlive the cursor. Every getter throws InputError (file,
 /// line) for what it does not expect.
 class TextCursor {
@@ -34,6 +42,8 @@ class TextCursor {
 
   /// A word as a number; what and id name it in the error ("vertex 17").
   float number(std::string_view word, const char* what, std::uint64_t id) const;
+  /// Within what a float holds; rounded to float it is the float next to the word.
+  double coordinate(std::string_view word, const char* what, std::uint64_t id) const;
   std::int64_t integer(std::string_view word, const char* what, std::uint64_t id, std::int64_t lo,
                        std::int64_t hi) const;
 
@@ -47,6 +57,7 @@ class TextCursor {
   void skip_space();
   void skip_space_in_line();
   bool is_continuation() const;
+  bool is_mark() const;
   std::string_view take_word();
 
   std::string_view text_;

@@ -21,6 +21,7 @@ glm::dvec3 choose_offset(const Box& box) {
   const glm::dvec3 reach = glm::max(glm::abs(box.lo), glm::abs(box.hi));
   const double most = largest(reach);
   if (!(most > 0)) return glm::dvec3(0);
+  if (box.lo == box.hi && box.lo == glm::dvec3(glm::vec3(box.lo))) return glm::dvec3(0);
   const double side = std::max(largest(box.size()), kPointShare * most);
   const double step = std::ldexp(1.0, std::ilogb(most) - 23);
   if (!(step > kStepShare * side)) return glm::dvec3(0);

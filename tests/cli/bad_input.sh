@@ -98,7 +98,7 @@ printf 'v 0 0 0\nv 1 0 0\nv 0 1 nan\nf 1 2 3\n' >p/nan.obj
 printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n' >p/index.obj
 printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\n' >p/faceless.obj
 for name in nan index faceless; do mesh_fault $name.obj "p/$name.obj"; done
-{ head -c 80 /dev/zero; printf '\377\377\377\377'; head -c 100 /dev/zero; } >p/count.stl
+{ head -c 80 /dev/zero; printf '\377\377\377\177'; head -c 100 /dev/zero; } >p/count.stl
 mesh_fault count.stl p/count.stl
 gzip -nc p/nan.ply | head -c 60 >p/cut.ply.gz
 mesh_fault cut.ply.gz p/cut.ply.gz

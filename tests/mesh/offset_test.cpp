@@ -18,7 +18,8 @@ TEST(Offset, IsNoneNearTheOrigin) {
     for (const double sizes_away : {0.0, 0.5, 2.0, 20.0})
       EXPECT_EQ(choose_offset(box_about(glm::dvec3(sizes_away * size, 0, 0), size)), glm::dvec3(0));
   EXPECT_EQ(choose_offset({}), glm::dvec3(0));
-  EXPECT_EQ(choose_offset(box_about(glm::dvec3(0), 0)), glm::dvec3(0));
+  for (const double x : {0.0, 1.0, double{0.1f}})
+    EXPECT_EQ(choose_offset(box_about(glm::dvec3(x), 0)), glm::dvec3(0));
 }
 
 // Metres of a map: half a metre from float to float, 500 and 4,649 km from its origin.

@@ -1,0 +1,43 @@
+// Faces as files have them, polygons of any length, on their way to triangles. Private to this room
+// and its tests.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "base/remarks.h"
+#include "mesh/mesh.h"
+
+namespace viewcell {
+
+/// Face f has the corners [starts[f], starts[f + 1]).
+struct FaceList {
+  std::vector<std::uint32_t> vertices;  ///< of corners
+  std::vector<std::uint64_t> starts{0};
+
+  std::size_t size() const { return starts.size() - 1; }
+  void end_face() { starts.push_back(vertices.size()); }
+};
+
+/// Where the triangles of a FaceList come from.
+struct TriangleSources {
+  std::vector<std::uint64_t> corners;  ///< three a triangle: of the list
+  std::vector<std::uint32_t> faces;    ///< one a triangle
+};
+
+/// Sets mesh.triangles to the faces, cut (mesh/triangulate.h). Those of fewer than three corners
+/// are left out. Vertices must be in range. sources: if wanted.
+void cut_faces(const FaceList& faces, TriMesh& mesh, TriangleSources* sources, Remarks* remarks);
+
+/// Sets positions and offset (mesh/offset.h) to vertices at `places`, of which those count that
+/// corners name; where none is named, all. stated: an offset that the file names, taken if it
+/// serves.
+void place_vertices(std::span<const glm::dvec3> places, std::span<const std::uint32_t> corners,
+                    TriMesh& mesh, Remarks* remarks,
+                    const std::optional<glm::dvec3>& stated = std::nullopt);
+/// The same for positions that the mesh has.
+void choose_offset_of(std::span<const std::uint32_t> corners, TriMesh& mesh, Remarks* remarks);
+
+}  // namespace viewcell

@@ -1,0 +1,345 @@
+// Files as programs write them, not quite as formats have it: the same cube comes out.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cctype>
+
+#include "base/srgb.h"
+#include "common/expect_input_error.h"
+#include "common/mutate.h"
+#include "common/temporary_folder.h"
+#include "formats/mesh_bytes.h"
+#include "formats/mesh_file.h"
+#include "formats/readers.h"
+#include "formats/remarks_of.h"
+#include "mesh/cube.h"
+
+namespace viewcell {
+namespace {
+
+const std::string kMark = "\xef\xbb\xbf";
+
+void expect_cube(const TriMesh& mesh) {
+  EXPECT_EQ(mesh.positions, cube_positions());
+  EXPECT_EQ(mesh.triangles, cube_triangles());
+}
+
+struct Read {
+  TriMesh mesh;
+  Remarks remarks;
+};
+Read read_bytes(const std::string& name, const std::string& bytes) {
+  const TemporaryFolder folder;
+  MeshSource source;
+  TriMesh mesh = read_mesh(folder.add(name, bytes), &source);
+  return {std::move(mesh), source.remarks};
+}
+
+std::string capitals(std::string text) {
+  for (char& c : text) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  return text;
+}
+
+// ---- byte order marks ----
+
+TEST(ByteOrderMark, StandsBeforeTextOfAnyFormat) {
+  for (const std::string ending : {"obj", "off", "ply", "stl", "gltf", "ply.gz", "unknown"})
+    for (const std::string& text : {cube_obj(), cube_off(), cube_ply(), cube_stl_text()}) {
+      const bool fits =
+          (ending == "obj" && text == cube_obj()) || (ending == "off" && text == cube_off()) ||
+          (ending == "ply" && text == cube_ply()) || (ending == "stl" && text == cube_stl_text()) ||
+          (ending == "ply.gz" && text == cube_ply()) || ending == "unknown";
+      if (!fits) continue;
+      SCOPED_TRACE(ending + " " + text.substr(0, 5));
+      const std::string marked = ending == "ply.gz" ? gzipped(kMark + text) : kMark + text;
+      const std::string plain = ending == "ply.gz" ? gzipped(text) : text;
+      EXPECT_EQ(read_bytes("m." + ending, marked).mesh.positions,
+                read_bytes("m." + ending, plain).mesh.positions);
+    }
+  std::string binary = cube_ply();
+  TriMesh cube = make_cube();
+  const TemporaryFolder folder;
+  write_ply(folder.path() / "b.ply", cube);
+  expect_cube(read_bytes("b.ply", kMark + read_file(folder.path() / "b.ply")).mesh);
+}
+
+// The first vertex was lost, and the mesh was another.
+TEST(ByteOrderMark, LosesNoVertex) {
+  const std::string text = "v 5 5 5\n" + cube_obj();
+  EXPECT_EQ(parse_obj(kMark + text, "m").positions, parse_obj(text, "m").positions);
+  const std::string joined = cube_obj() + kMark + "v 9 9 9\n" + kMark + "f 1 2 9\n";
+  const TriMesh mesh = parse_obj(joined, "m");  // files put together
+  EXPECT_EQ(mesh.positions.back(), glm::vec3(9));
+  EXPECT_EQ(mesh.triangles.back(), (Triangle{0, 1, 8}));
+}
+
+TEST(ByteOrderMark, OfUtf16IsRefusedByName) {
+  const auto wide = [](const std::string& text, bool is_big) {
+    std::string out = is_big ? "\xfe\xff" : "\xff\xfe";
+    for (const char c : text) out += is_big ? std::string({'\0', c}) : std::string({c, '\0'});
+    return out;
+  };
+  for (const char* name : {"m.obj", "m.ply", "m.off", "m.stl", "m.gltf", "m.unknown"})
+    for (const bool is_big : {false, true})
+      EXPECT_INPUT_ERROR(read_bytes(name, wide(cube_obj(), is_big)), "save it as UTF-8");
+  EXPECT_INPUT_ERROR(read_bytes("m.obj", std::string("\0\0\xfe\xff", 4) + "v"), "UTF-32");
+  std::string binary = cube_stl_binary();  // whose comment may be anything
+  binary.replace(0, 2, "\xff\xfe");
+  EXPECT_EQ(read_bytes("m.stl", binary).mesh.positions.size(), 8u);
+  binary.replace(0, 3, kMark);
+  EXPECT_EQ(read_bytes("m.stl", binary).mesh.positions.size(), 8u);
+}
+
+// ---- OFF ----
+
+TEST(OffVariants, HeadersTouchTheirCounts) {
+  for (const std::string head : {"OFF8 6 0", "OFF8 6", "off 8 6 0", "Off\n8 6 0", "off8 6 0",
+                                 "OFF\r\n8 6 0", "# first\nOFF8 6 0", "OFF +8 6 0"}) {
+    SCOPED_TRACE(head);
+    const std::string text = replaced(cube_off(), "OFF\n8 6 0", head);
+    expect_cube(parse_off(text, "m.off"));
+    if (head[0] != '#') expect_cube(read_bytes("nameless", text).mesh);
+  }
+  const std::string body = "0 0 0 0 0 1\n1 0 0 0 0 1\n0 1 0 0 0 1\n3 0 1 2\n";
+  for (const std::string head : {"NOFF3 1 0\n", "noff 3 1 0\n", "NOFF 3 1\n"})
+    EXPECT_EQ(parse_off(head + body, "m").normals, std::vector<glm::vec3>(3, {0, 0, 1})) << head;
+  for (const std::string head : {"4OFF3 1 0\n", "nOFF 3 3 1 0\n", "4nOFF 3 3 1 0\n"})
+    EXPECT_INPUT_ERROR(parse_off(head + body, "m"), "three dimensions");
+  for (const std::string head : {"OFFICE 3 1 0\n", "OFF8x 1 0\n", "SOFF 3 1 0\n", "OF 3 1 0\n"})
+    EXPECT_INPUT_ERROR(parse_off(head + body, "m"), "is not an OFF file");
+}
+
+TEST(OffVariants, TextureCoordinatesStandLast) {
+  const TriMesh mesh = parse_off(
+      "STCOFF 3 1 0\n0 0 0 255 0 0 255 0 0\n1 0 0 0 255 0 1 0\n0 1 0 0 0 255 0 1\n3 0 1 2\n", "m");
+  EXPECT_EQ(mesh.texcoords, (std::vector<glm::vec2>{{0, 0}, {1, 0}, {0, 1}}));
+  EXPECT_EQ(mesh.colors, (std::vector<glm::vec3>{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}));
+  EXPECT_INPUT_ERROR(parse_off("STOFF 3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", "m"),
+                     "vertex 0: a texture coordinate is missing");
+}
+
+TEST(OffVariants, ColoursOfAnyRange) {
+  const auto green_of = [](const std::string& color, const std::string& others) {
+    return parse_off("COFF 3 1 0\n0 0 0 " + color + "\n1 0 0 " + others + "\n0 1 0 " + others +
+                         "\n3 0 1 2\n",
+                     "m")
+        .colors[0];
+  };
+  const glm::vec3 orange(1, srgb_decode(128 / 255.0f), 0);
+  EXPECT_EQ(green_of("255 128 0", "0 0 0"), orange);
+  EXPECT_EQ(green_of("255.0 128.0 0.0", "0 0 0"), orange);
+  EXPECT_EQ(green_of("65535 32896 0", "0 0 0"), orange);
+  EXPECT_EQ(green_of("1 0 0", "0.25 0.5 1"), glm::vec3(1, 0, 0));  // as streams print floats
+  EXPECT_EQ(green_of("1 0 0 255", "0 0 0 255"), glm::vec3(srgb_decode(1 / 255.0f), 0, 0));
+}
+
+// ---- STL ----
+
+TEST(StlVariants, WordsInCapitals) {
+  const std::string text = capitals(cube_stl_text());
+  const TriMesh wanted = read_bytes("m.stl", cube_stl_text()).mesh;
+  for (const char* name : {"m.stl", "nameless"}) {
+    const TriMesh mesh = read_bytes(name, text).mesh;
+    EXPECT_EQ(mesh.positions, wanted.positions);
+    EXPECT_EQ(mesh.triangles, wanted.triangles);
+  }
+  std::string mixed = replaced(cube_stl_text(), "endfacet", "EndFacet");
+  EXPECT_EQ(parse_stl("\n  \n" + mixed, "m").triangles, wanted.triangles);
+}
+
+// Programs that write facets as they make them leave it.
+TEST(StlVariants, TheCountIsLeftOpen) {
+  const TriMesh wanted = parse_stl(cube_stl_binary(), "m");
+  for (const std::uint32_t count : {0u, 0xffffffffu})
+    for (const char* begin : {"", "solid ", "SOLID facet "}) {
+      SCOPED_TRACE(begin);
+      std::string bytes = cube_stl_binary();
+      bytes.replace(0, std::string(begin).size(), begin);
+      std::memcpy(bytes.data() + 80, &count, 4);
+      const auto [mesh, remarks] = read_bytes("m.stl", bytes);
+      EXPECT_EQ(mesh.triangles, wanted.triangles);
+      EXPECT_EQ(count_of(remarks, "facets, counted by the file's size"), 12u);
+      EXPECT_EQ(read_bytes("nameless", bytes).mesh.triangles, wanted.triangles);
+      for (const std::size_t n : {1u, 25u, 49u})
+        EXPECT_INPUT_ERROR(parse_stl(bytes.substr(0, bytes.size() - n), "m"),
+                           "facet 11: the file ends inside this facet");
+    }
+  for (const std::uint32_t count : {11u, 13u}) {  // said, and wrong
+    std::string bytes = cube_stl_binary();
+    std::memcpy(bytes.data() + 80, &count, 4);
+    EXPECT_THROW(parse_stl(bytes, "m"), InputError);
+  }
+}
+
+// ---- PLY ----
+
+const std::string kHead =
+    "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\n"
+    "property float y\nproperty float z\n";
+const std::string kFaces = "element face 2\nproperty list uchar int vertex_indices\nend_header\n";
+const std::string kFaceRows = "3 0 1 2\n3 0 2 3\n";
+
+TEST(PlyVariants, CommentsAnywhereInTheHeader) {
+  const std::string text = cube_ply();
+  for (const std::string to : {"ply\ncomment made by Y\nobj_info z\nformat ascii 1.0\n",
+                               "ply\n\nformat  ascii  1.0\ncomment x\n"})
+    expect_cube(parse_ply_mesh(replaced(text, "ply\nformat ascii 1.0\n", to), "m"));
+  const std::string late = replaced(text, "ply\nformat ascii 1.0\n", "ply\n");
+  expect_cube(parse_ply_mesh(replaced(late, "end_header", "format ascii 1.0\nend_header"), "m"));
+  EXPECT_INPUT_ERROR(parse_ply_mesh(late, "m"), "no line 'format'");
+  EXPECT_INPUT_ERROR(parse_ply_mesh(replaced(text, "1.0\n", "1.0\nformat ascii 1.0\n"), "m"),
+                     "the format stands twice");
+}
+
+// -1 ends a strip; a corner named twice turns one.
+TEST(PlyVariants, TriangleStrips) {
+  const std::string head = kHead + "element tristrips ";
+  const std::string rest =
+      "\nproperty list int int vertex_indices\nend_header\n"
+      "0 0 0\n1 0 0\n1 1 0\n0 1 0\n";
+  const auto strips = [&](const std::string& n, const std::string& rows) {
+    return parse_ply_mesh(head + n + rest + rows, "m").triangles;
+  };
+  EXPECT_EQ(strips("1", "4 0 1 3 2\n"), (std::vector<Triangle>{{0, 1, 3}, {3, 1, 2}}));
+  EXPECT_EQ(strips("1", "7 0 1 2 -1 0 2 3\n"), (std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}}));
+  EXPECT_EQ(strips("2", "3 0 1 2\n4 -1 0 2 3\n"), (std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}}));
+  EXPECT_EQ(strips("1", "5 0 1 2 2 3\n"), (std::vector<Triangle>{{0, 1, 2}}));
+  EXPECT_EQ(strips("1", "6 0 1 2 2 3 0\n"), (std::vector<Triangle>{{0, 1, 2}, {3, 2, 0}}));
+  EXPECT_INPUT_ERROR(strips("2", "3 0 1 2\n3 0 1 4\n"),
+                     "tristrips 1: names a vertex that does not");
+  EXPECT_INPUT_ERROR(strips("1", "3 0 1 -2\n"), "tristrips 0");
+  const std::string both = kHead +
+                           "element face 1\nproperty list uchar int vertex_index\n"
+                           "element tristrips 1" +
+                           rest + "3 0 1 2\n3 0 2 3\n";
+  EXPECT_EQ(parse_ply_mesh(both, "m").triangles, (std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}}));
+}
+
+// (255, 128, 0) by every name, type and range.
+TEST(PlyVariants, ColoursOfAnyTypeAndRange) {
+  const auto colors_of = [](const std::string& type, const std::array<const char*, 3>& names,
+                            const std::string& color) {
+    std::string text = kHead;
+    for (const char* name : names) text += "property " + type + " " + name + "\n";
+    text += kFaces;
+    for (const char* p : {"0 0 0 ", "1 0 0 ", "1 1 0 ", "0 1 0 "}) text += p + color + "\n";
+    return parse_ply_mesh(text + kFaceRows, "m").colors;
+  };
+  const glm::vec3 orange(1, srgb_decode(128 / 255.0f), 0);
+  const std::array<const char*, 3> kRgb{"r", "g", "b"};
+  for (const std::array<const char*, 3>& names :
+       {std::array<const char*, 3>{"red", "green", "blue"},
+        kRgb,
+        {"Red", "Green", "Blue"},
+        {"R", "G", "B"},
+        {"diffuse_red", "diffuse_green", "diffuse_blue"}})
+    EXPECT_EQ(colors_of("uchar", names, "255 128 0"), std::vector<glm::vec3>(4, orange))
+        << names[0];
+  for (const char* type : {"char", "short", "ushort", "int", "uint", "float", "double", "uint8"})
+    EXPECT_EQ(colors_of(type, kRgb, "255 128 0"), std::vector<glm::vec3>(4, orange)) << type;
+  for (const char* type : {"ushort", "int", "uint", "float", "double"})
+    EXPECT_EQ(colors_of(type, kRgb, "65535 32896 0"), std::vector<glm::vec3>(4, orange)) << type;
+  EXPECT_LT(glm::distance(colors_of("float", kRgb, "1 0.50196078 0")[0], orange), 1e-6f);
+  EXPECT_LT(glm::distance(colors_of("double", kRgb, "1 0.50196078 0")[0], orange), 1e-6f);
+  EXPECT_LT(glm::distance(colors_of("short", kRgb, "32767 16448 0")[0], orange), 1e-4f);
+}
+
+TEST(PlyVariants, WhatIsPassedOverOfColoursIsSaid) {
+  const std::string faces =
+      "element face 2\nproperty list uchar int vertex_indices\n"
+      "property uchar red\nproperty uchar green\nproperty uchar blue\n"
+      "end_header\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2 1 2 3\n3 0 2 3 1 2 3\n";
+  Remarks remarks;
+  EXPECT_TRUE(parse_ply_mesh(kHead + faces, "m", &remarks).colors.empty());
+  EXPECT_EQ(count_of(remarks, "faces with colours of their own"), 2u);
+}
+
+// Normals that are no numbers, in text and in binary, are computed; columns that nobody reads may
+// hold anything.
+TEST(PlyVariants, NormalsThatAreNoNumbers) {
+  const std::string columns =
+      "property float nx\nproperty float ny\nproperty float nz\n"
+      "property float quality\n";
+  const auto [mesh, remarks] = read_bytes("m.ply", kHead + columns + kFaces +
+                                                       "0 0 0 nan nan nan 1\n1 0 0 0 0 2 -nan\n"
+                                                       "1 1 0 0 -1 0 inf\n0 1 0 1.#QNAN 0 0 0\n" +
+                                                       kFaceRows);
+  EXPECT_EQ(mesh.normals, (std::vector<glm::vec3>{{0, 0, 1}, {0, 0, 1}, {0, -1, 0}, {0, 0, 1}}));
+  EXPECT_EQ(count_of(remarks, "vertices without a normal: computed"), 2u);
+  EXPECT_INPUT_ERROR(
+      read_bytes("m.ply", kHead + kFaces + "0 0 0\n1 nan 0\n1 1 0\n0 1 0\n" + kFaceRows),
+      "vertex 1: property 'y' is not a finite number");
+}
+
+// ---- faces ----
+
+TEST(Faces, OfFewerThanThreeCornersAreCounted) {
+  const std::string off = replaced(cube_off(), "4 4 5 6 7", "2 4 5");
+  const std::string ply = replaced(cube_ply(), "4 4 5 6 7", "2 4 5");
+  for (const auto& [name, bytes] : {std::pair("m.off", off), {"m.ply", ply}}) {
+    const auto [mesh, remarks] = read_bytes(name, bytes);
+    EXPECT_EQ(mesh.triangles.size(), 10u) << name;
+    EXPECT_EQ(count_of(remarks, "faces of fewer than three corners"), 1u) << name;
+  }
+  for (const char* row : {"0", "1 4"})
+    EXPECT_EQ(parse_off(replaced(cube_off(), "4 4 5 6 7", row), "m").triangles.size(), 10u);
+}
+
+// The L, from each corner on, by every format that has polygons; texture coordinates go with the
+// corners.
+TEST(Faces, ThatAreNotConvex) {
+  const float x[] = {0, 2, 2, 1, 1, 0}, y[] = {0, 0, 1, 1, 2, 2};
+  std::string obj, off = "OFF 6 1 0\n", vertices;
+  for (int k = 0; k < 6; ++k) {
+    const std::string row = std::to_string(x[k]) + " " + std::to_string(y[k]);
+    obj += "v " + row + " 0\nvt " + row + "\n";
+    vertices += row + " 0\n";
+  }
+  for (int start = 0; start < 6; ++start) {
+    std::string face = "f", row = "6", texcoords = " 12";
+    for (int k = 0; k < 6; ++k) {
+      const int v = (start + k) % 6;
+      const std::string one = std::to_string(v + 1);
+      face += " " + one + "/" + one;
+      row += " " + std::to_string(v);
+      texcoords += " " + std::to_string(x[v]) + " " + std::to_string(y[v]);
+    }
+    const std::string ply =
+        "ply\nformat ascii 1.0\nelement vertex 6\nproperty float x\nproperty float y\n"
+        "property float z\nelement face 1\nproperty list uchar int vertex_indices\n"
+        "property list uchar double texcoord\nend_header\n" +
+        vertices + row + texcoords + "\n";
+    for (const TriMesh& mesh : {parse_obj(obj + face + "\n", "m"), parse_ply_mesh(ply, "m"),
+                                parse_off(off + vertices + row + "\n", "m")}) {
+      ASSERT_EQ(mesh.triangles.size(), 4u);
+      double area = 0;
+      for (const Triangle& t : mesh.triangles) {
+        EXPECT_GE(area_normal(mesh, t).z, 0);
+        area += area_normal(mesh, t).z / 2;
+      }
+      EXPECT_DOUBLE_EQ(area, 3);
+      for (std::size_t c = 0; c < mesh.texcoords.size(); ++c)
+        EXPECT_EQ(mesh.texcoords[c], glm::vec2(mesh.positions[mesh.triangles[c / 3][c % 3]]));
+    }
+  }
+}
+
+TEST(Faces, ThatCrossThemselvesAreSaid) {
+  Remarks remarks;
+  const TriMesh mesh =
+      parse_obj("v 0 0 0\nv 3 3 0\nv 3 0 0\nv 0 1 0\nf 1 2 3 4\nf 1 2 3\n", "m", &remarks);
+  EXPECT_EQ(mesh.triangles.size(), 3u);
+  EXPECT_EQ(count_of(remarks, "polygons that cross themselves"), 1u);
+}
+
+TEST(Faces, PointsAloneAreNoSurface) {
+  const TemporaryFolder folder;
+  const auto off = folder.add("a.off", "OFF 2 0 0\n0 0 0\n1 2 3\n");
+  EXPECT_INPUT_ERROR(read_mesh(off), "has no faces");
+  EXPECT_EQ(read_surface_or_points(off).positions, (std::vector<glm::vec3>{{0, 0, 0}, {1, 2, 3}}));
+  EXPECT_INPUT_ERROR(read_surface_or_points(folder.add("n.off", "OFF 0 0 0\n")), "no vertices");
+  EXPECT_EQ(read_surface_or_points(folder.add("a.obj", "v 1 2 3\np 1\n")).positions.size(), 1u);
+}
+
+}  // namespace
+}  // namespace viewcell
