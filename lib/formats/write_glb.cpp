@@ -11,6 +11,7 @@
 #include "base/file.h"
 #include "base/json.h"
 #include "base/version.h"
+#include "formats/split_normals.h"
 #include "mesh/tangents.h"
 
 // Source: the glTF 2.0 specification (Khronos), 4.4 (GLB) and 3.6 (accessors).
@@ -26,7 +27,7 @@ constexpr int kLinear = 9729, kLinearMipmapLinear = 9987;
 
 // --- vertices: each a vertex of the mesh with one texture coordinate ---
 
-struct SplitMesh {
+struct DrawnVertices {
   std::vector<std::uint32_t> source;  // the mesh's vertex
   std::vector<glm::vec2> texcoords;   // ours, v up; empty without
   std::vector<glm::vec4> tangents;    // empty without
@@ -41,9 +42,9 @@ std::uint64_t bits_of(const glm::vec2& uv) {
 
 // tangents: of corners, or empty. Corners of a vertex with the same texture coordinates on the same
 // side have the same one.
-SplitMesh split_vertices(const TriMesh& mesh, const std::vector<glm::vec4>& tangents) {
+DrawnVertices split_vertices(const TriMesh& mesh, const std::vector<glm::vec4>& tangents) {
   const auto n = static_cast<std::uint32_t>(mesh.positions.size());
-  SplitMesh out;
+  DrawnVertices out;
   for (std::uint32_t v = 0; v < n; ++v) out.source.push_back(v);
   std::vector<bool> is_taken(n, false);
   if (!mesh.texcoords.empty()) out.texcoords.resize(n, glm::vec2(0));
@@ -121,7 +122,7 @@ std::size_t add_positions(Content& content, const std::vector<glm::vec3>& positi
 }
 
 // 65535 itself would be the mark that restarts a strip.
-std::size_t add_indices(Content& content, const SplitMesh& split) {
+std::size_t add_indices(Content& content, const DrawnVertices& split) {
   if (split.source.size() > 65535)
     return add_accessor(content, split.indices, kGltfUnsignedInt, "SCALAR", kIndexData);
   const std::vector<std::uint16_t> small(split.indices.begin(), split.indices.end());
@@ -134,7 +135,7 @@ std::vector<glm::vec4> tangents_for(const TriMesh& mesh, const GlbOptions& optio
 }
 
 Json add_primitive(Content& content, const TriMesh& mesh, const GlbOptions& options) {
-  const SplitMesh split = split_vertices(mesh, tangents_for(mesh, options));
+  const DrawnVertices split = split_vertices(mesh, tangents_for(mesh, options));
   Json attributes{{"POSITION", add_positions(content, pick(mesh.positions, split.source))}};
   const auto add = [&](const char* name, const std::vector<glm::vec3>& values) {
     attributes[name] =
@@ -179,7 +180,10 @@ Json make_root(Content& content, const TriMesh& mesh, const GlbOptions& options,
                const std::string& file) {
   const std::string generator =
       options.generator.empty() ? std::string("viewcell ") + version() : options.generator;
-  const Json root_node{{"mesh", 0}}, scene{{"nodes", Json::array({0})}};
+  Json root_node{{"mesh", 0}};
+  const glm::dvec3& at = mesh.offset;
+  if (at != glm::dvec3(0)) root_node["translation"] = Json::array({at.x, at.y, at.z});
+  const Json scene{{"nodes", Json::array({0})}};
   Json root{{"asset", {{"version", "2.0"}, {"generator", generator}}},
             {"scene", 0},
             {"scenes", Json::array({scene})},
@@ -242,8 +246,16 @@ void check_input(const TriMesh& mesh, const GlbOptions& options, const std::stri
 
 }  // namespace
 
-void write_glb(const std::filesystem::path& file, const TriMesh& mesh, const GlbOptions& options) {
+void write_glb(const std::filesystem::path& file, const TriMesh& mesh, const GlbOptions& options,
+               Remarks* remarks) {
   check_input(mesh, options, file.string());
+  if (!mesh.corner_normals.empty())
+    return write_glb(file, split_by_normals(mesh, remarks).mesh, options, remarks);
+  const char* why = "which we do not write to a GLB, left out";
+  add_remark(remarks, std::string("materials, ") + why, mesh.material_names.size());
+  if (!options.base_color.empty())
+    add_remark(remarks, std::string("colours of vertices under a texture, ") + why,
+               mesh.colors.size());
   Content content;
   const Json root = make_root(content, mesh, options, file.string());
   write_file(file, join_chunks(root.dump(), content.bytes, file.string()));

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <string>
 
+#include "base/remarks.h"
 #include "mesh/mesh.h"
 
 namespace viewcell {
@@ -19,13 +20,15 @@ struct GlbOptions {
 /// material (white times base_color, dielectric, rough). Whole or not at all; "-": standard output.
 /// The same input gives the same bytes: no date.
 ///
-/// Vertices 0 .. n - 1 are the mesh's; where a vertex's corners have several texture coordinates,
-/// copies of it follow from n on, in the order of the corners. Triangles keep their order, and so
+/// Vertices 0 .. n - 1 are the mesh's; where a vertex's corners have several normals, copies of it
+/// follow from n on, in the order of the corners, and behind these others where they have several
+/// texture coordinates. Triangles keep their order, and so
 /// do their corners. v is turned over, as read_mesh turns it: v comes back exactly if it is a
 /// multiple of 2^-24 in [0, 1], else to within 2^-25. Axes stay as they are, though glTF holds that
 /// y points up. Indices are uint16 up to 65535 vertices, else uint32.
 ///
-/// Left out: materials and their names; vertex colours where there is base_color, which would
+/// A mesh's offset is the node's translation. remarks: vertices added for their normals, and what
+/// is left out: materials and their names; vertex colours where there is base_color, which would
 /// multiply it. Tangents (mesh/tangents.h) are written where there are a normal map and normals;
 /// where a texture meets its mirror image on one vertex, that too has copies.
 ///
@@ -33,6 +36,6 @@ struct GlbOptions {
 /// positions or texture coordinates that are not finite, for bytes that are neither PNG nor JPEG,
 /// and beyond 4 GiB; MachineError when it cannot be written.
 void write_glb(const std::filesystem::path& file, const TriMesh& mesh,
-               const GlbOptions& options = {});
+               const GlbOptions& options = {}, Remarks* remarks = nullptr);
 
 }  // namespace viewcell

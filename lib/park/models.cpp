@@ -96,6 +96,7 @@ void set_on_ground(TriMesh& mesh, const glm::dvec3& size, const fs::path& file) 
   const double scale = std::cbrt(size.x * size.y * size.z / (own.x * own.y * own.z));
   const glm::dvec3 base(box.centre().x, box.centre().y, box.lo.z);
   for (glm::vec3& p : mesh.positions) p = glm::vec3((glm::dvec3(p) - base) * scale);
+  mesh.offset = glm::dvec3(0);  // of no account any more
 }
 
 // The surface hangs together where the file has split it; the result is split where normals jump.
@@ -114,6 +115,7 @@ TriMesh load_model(const StatueKind& kind, const Offer& offer, const MeshLimits&
                    MeshSource& source) {
   TriMesh mesh = read_mesh(offer.file, &source, limits);
   mesh.texcoords.clear(), mesh.materials.clear(), mesh.material_names.clear();
+  mesh.material_libraries.clear();
   turn_upright(mesh, offer);
   set_on_ground(mesh, kind.size, offer.file);
   SplitMesh drawn = split_corners(std::move(mesh));

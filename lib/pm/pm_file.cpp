@@ -24,12 +24,15 @@ void check_finite(const SectionReader& reader, const char* tag, const std::vecto
 void write_pm(const std::filesystem::path& file, const ProgressiveRecord& r) {
   SectionWriter writer(kKind);
   const TriMesh& a = r.attributes;
-  const Json info{{"format", kFormat},
-                  {"version", kVersion},
-                  {"material_names", a.material_names},
-                  {"full_edge", r.is_full_edge()},
-                  {"made_by", r.made_by.empty() ? Json() : Json::parse(r.made_by)}};
-  writer.add_bytes("INFO", info.dump());
+  Json info{{"format", kFormat},
+            {"version", kVersion},
+            {"material_names", a.material_names},
+            {"full_edge", r.is_full_edge()},
+            {"made_by", r.made_by.empty() ? Json() : Json::parse(r.made_by)}};
+  if (!a.material_libraries.empty()) info["material_libraries"] = a.material_libraries;
+  if (a.offset != glm::dvec3(0)) info["offset"] = {a.offset.x, a.offset.y, a.offset.z};
+  // Names as files have them need not be UTF-8, which JSON is.
+  writer.add_bytes("INFO", info.dump(-1, ' ', false, Json::error_handler_t::replace));
   writer.add("POSITION", a.positions);
   writer.add("NORMALS", a.normals);
   writer.add("COLORS", a.colors);
@@ -54,8 +57,16 @@ ProgressiveRecord read_pm(const std::filesystem::path& file) {
   const JsonCursor info(json, file);
   ProgressiveRecord r;
   TriMesh& a = r.attributes;
-  const JsonCursor names = info.at("material_names");
-  for (std::size_t i = 0; i < names.size(); ++i) a.material_names.push_back(names.at(i).string());
+  const auto read_names = [&](const char* key, std::vector<std::string>& to) {
+    const JsonCursor names = info.at(key);
+    for (std::size_t i = 0; i < names.size(); ++i) to.push_back(names.at(i).string());
+  };
+  read_names("material_names", a.material_names);
+  if (info.has("material_libraries")) read_names("material_libraries", a.material_libraries);
+  if (info.has("offset")) {
+    const std::vector<double> offset = info.at("offset").numbers(3);
+    a.offset = {offset[0], offset[1], offset[2]};
+  }
   if (json.contains("made_by") && !json["made_by"].is_null()) r.made_by = json["made_by"].dump();
   reader.read("POSITION", a.positions);
   reader.read("NORMALS", a.normals);

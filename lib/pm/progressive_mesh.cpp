@@ -111,6 +111,8 @@ TriMesh ProgressiveMesh::extract(std::vector<std::uint32_t>* source_vertex) cons
   const bool is_input = level_ == n_splits();
   TriMesh out;
   out.material_names = from.material_names;
+  out.material_libraries = from.material_libraries;
+  out.offset = from.offset;
   for (std::size_t f = 0; f < record_.faces.size(); ++f) {
     if (!is_alive_[f]) continue;
     const Triangle& face = record_.faces[f];

@@ -104,6 +104,8 @@ void Recorder::add_attributes(ProgressiveRecord& r) const {
   to.normals = input_.normals;
   to.colors = input_.colors;
   to.material_names = input_.material_names;
+  to.material_libraries = input_.material_libraries;
+  to.offset = input_.offset;
   if (is_full_)
     for (std::uint32_t v = 0; v < mesh_.positions.size(); ++v)
       to.positions[mesh_.vertex_source[v]] = unscaled(v, mesh_.positions[v]);

@@ -163,6 +163,7 @@ std::vector<std::uint32_t> grow_disk(const TriMesh& mesh, const EdgeTable& edges
 TriMesh weld(const TriMesh& mesh, const std::vector<std::uint32_t>& first) {
   TriMesh out;
   out.positions = mesh.positions;
+  out.offset = mesh.offset;
   for (Triangle t : mesh.triangles) {
     for (std::uint32_t& v : t) v = first[v];
     out.triangles.push_back(t);

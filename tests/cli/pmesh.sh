@@ -186,12 +186,53 @@ fault 2 "cannot both be standard output" "$pmesh" build ball.off -o - --json -
 rm link.pm hard.pm
 # Endings tell what is written.
 fault 2 "-o is a progressive mesh: it does not end in .pm" "$pmesh" build ball.off -o x.ply
-fault 2 "it does not end in .ply or .obj" "$pmesh" extract some.pm --faces 100 -o x.stl
+fault 2 "it does not end in .ply or .obj or .stl or .off or .glb" "$pmesh" extract some.pm --faces 100 -o x.xyz
 expect 0 "$pmesh" build ball.off -o /dev/null
 expect 0 "$pmesh" extract some.pm --faces 400 -o some.obj
 expect 0 "$pmesh" extract some.pm --faces 400 -o some.ply
 [ "$(grep -c '^f ' some.obj)" -eq 400 ] || fail "no OBJ of 400 faces"
 expect 0 "$bin/meshdist" some.obj some.ply --samples 1000 --fail-above 1e-12
+
+# Every format that is written holds the same surface; what it does not hold is said.
+{ printf 'mtllib my own.mtl\nmtllib /elsewhere/b.mtl\n'
+  awk '/^v / { n++; print $0, (n % 7) / 6, 0.5, (n % 256) / 255; next } /^f/ { if (++f % 99 == 1) print "usemtl m" int(f / 99) } 1' relief.obj
+} >colored.obj
+expect 0 "$pmesh" build colored.obj -o colored.pm
+for ending in ply obj stl off glb; do
+  expect 0 "$pmesh" extract colored.pm --faces 100000 -o colored-out.$ending --json report.json
+  expect 0 "$bin/meshdist" colored-out.$ending colored.obj --samples 1000 --fail-above 1e-9
+  expect 0 "$pmesh" extract colored.pm --faces 300 -o colored-out.$ending --json report.json
+  if [ $ending = obj ]; then
+    says report.json 'has("remarks") | not' || fail "an OBJ leaves something out: $(cat report.json)"
+  else
+    says report.json '[.remarks[] | select(.what | startswith("materials, ")) | .count] == [6]' ||
+      fail "$ending: $(cat report.json)"
+  fi
+done
+head -3 colored-out.obj | grep -qx "mtllib my own.mtl" || fail "mtllib is lost"
+head -4 colored-out.obj | grep -qx "mtllib /elsewhere/b.mtl" || fail "mtllib is lost"
+[ "$(grep '^v ' colored-out.obj | awk 'NF == 7' | wc -l)" -eq "$(grep -c '^v ' colored-out.obj)" ] || fail "no colours"
+grep -q '^usemtl m3$' colored-out.obj || fail "materials are lost"
+
+# Far from the origin: through build and extract, in every format that holds it.
+awk '/^v / { printf "v %.6f %.6f %.6f\n", 500000 + $2 / 8, 4649776 + $3 / 8, $4 / 8; next } 1' relief.obj >far.obj
+awk '/^v / { printf "v %.6f %.6f %.6f\n", $2 / 8, $3 / 8, $4 / 8; next } 1' relief.obj >near.obj
+for metric in qem3 lt; do
+  expect 0 "$pmesh" build far.obj --metric $metric -o far.pm
+  grep -q "far.obj: far from the origin: positions are kept about (500002, 4649778, 0) (289)" "$log/err" || fail "$(cat "$log/err")"
+  expect 0 "$pmesh" info far.pm
+  says "$log/out" '.offset == [500002, 4649778, 0]' || fail "info: $(cat "$log/out")"
+  for ending in ply obj stl off; do
+    expect 0 "$pmesh" extract far.pm --faces 100000 -o far-out.$ending
+    expect 0 "$bin/meshdist" far-out.$ending far.obj --samples 1000 --fail-above 1e-6
+  done
+  expect 0 "$pmesh" extract far.pm --faces 100 -o far-100.ply
+  expect 0 "$bin/meshdist" far-100.ply far.obj --samples 20000 --json far.json
+  expect 0 "$pmesh" build near.obj --metric $metric -o near.pm
+  expect 0 "$pmesh" extract near.pm --faces 100 -o near-100.ply
+  expect 0 "$bin/meshdist" near-100.ply near.obj --samples 20000 --json near.json
+  holds "$(jq .symmetric.max far.json) < 1.01 * $(jq .symmetric.max near.json)" || fail "$metric: farther is worse"
+done
 
 # Options that the metric has no use for.
 useless() { fault 2 "$1 does nothing under --metric $3" "$pmesh" build relief.obj $1 $2 --metric $3 -o x.pm; }

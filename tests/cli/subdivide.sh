@@ -72,7 +72,7 @@ fault 2 "--times is required" "$subdivide" ball.off -o x.obj
 fault 2 "is required" "$subdivide" ball.off --times 1
 fault 2 "--scheme" "$subdivide" ball.off --times 1 --scheme catmull -o x.obj
 fault 2 "--texcoords" "$subdivide" ball.off --times 1 --texcoords none -o x.obj
-fault 2 "does not end in .obj or .ply" "$subdivide" ball.off --times 1 -o x.off
+fault 2 "does not end in .ply or .obj or .stl or .off or .glb" "$subdivide" ball.off --times 1 -o x.xyz
 fault 2 "the mesh that is read" "$subdivide" square.obj --times 1 -o square.obj
 fault 3 "nowhere/x.obj" "$subdivide" ball.off --times 1 -o nowhere/x.obj
 echo "subdivide.sh: all well ($n_faults faults)"

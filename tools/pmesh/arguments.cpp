@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "formats/mesh_file.h"
 
 namespace viewcell {
 namespace {
@@ -149,7 +150,7 @@ void check_extract(const Tool& tool, const PmeshArguments& a) {
   const CommonOptions& common = tool.common();
   if (common.output.empty()) throw UsageError("extract needs -o");
   if (!a.n_faces && !a.within) throw UsageError("extract needs --faces or --within");
-  check_ending({"-o", common.output}, {".ply", ".obj"}, "a PLY or an OBJ");
+  check_ending({"-o", common.output}, kWrittenEndings, "a mesh");
 }
 
 }  // namespace
@@ -169,7 +170,10 @@ void declare_arguments(Tool& tool, PmeshArguments& a) {
       .excludes("--faces");
   Command& info = tool.add_command("info", "say what a .pm holds");
   info.add_option("PM", &a.pm, "progressive mesh").required().reads(pm);
-  tool.add_output("file to write: .pm (build), .ply or .obj (extract); -: standard output", false);
+  tool.add_output(
+      "file to write: .pm (build), .ply, .obj, .stl, .off or .glb (extract); -: standard "
+      "output, a PLY of extract",
+      false);
 }
 
 void finish_arguments(const Tool& tool, PmeshArguments& a) {

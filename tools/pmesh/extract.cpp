@@ -1,5 +1,4 @@
 #include <cstdio>
-#include <filesystem>
 
 #include "base/error.h"
 #include "base/version.h"
@@ -11,11 +10,12 @@
 namespace viewcell {
 namespace {
 
-void write_mesh(const std::string& file, const TriMesh& mesh) {
-  const std::vector<std::string> comments{std::string("made by pmesh ") + version()};
-  const std::string ending = std::filesystem::path(file).extension();
-  if (ending == ".obj" || ending == ".OBJ") return write_obj(file, mesh, {comments, "", ""});
-  write_ply(file, mesh, comments);
+void write_level(const Tool& tool, const TriMesh& mesh) {
+  const std::string& file = tool.common().output;
+  Remarks remarks;
+  write_mesh(file, written_format(file, MeshFormat::ply), mesh,
+             {std::string("made by pmesh ") + version()}, &remarks);
+  tool.remark(file, remarks);
 }
 
 void choose_level(const PmeshArguments& a, ProgressiveMesh& mesh) {
@@ -35,7 +35,7 @@ int extract(const Tool& tool, const PmeshArguments& a) {
   choose_level(a, mesh);
   const double level_s = watch.lap_s();
   const TriMesh out = mesh.extract();
-  write_mesh(tool.common().output, out);
+  write_level(tool, out);
   const bool is_short = a.n_faces && out.triangles.size() > *a.n_faces;
   if (!is_short) tool.say(std::to_string(out.triangles.size()) + " faces");
   tool.report({{"faces", out.triangles.size()},

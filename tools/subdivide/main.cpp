@@ -39,16 +39,11 @@ void declare(Tool& tool, Arguments& a) {
       .show_default()
       .check(one_of(kTexcoords));
   tool.add_mesh_limit(tool);
-  tool.add_output("mesh to write: .obj or .ply (-: an OBJ)");
+  tool.add_output("mesh to write: .obj, .ply, .stl, .off or .glb (-: an OBJ)");
 }
 
 int place_of(const std::string& name, const std::vector<std::string>& names) {
   return static_cast<int>(std::find(names.begin(), names.end(), name) - names.begin());
-}
-
-bool is_ply(std::string file) {
-  for (char& c : file) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return file.ends_with(".ply");
 }
 
 Json format_report(const Tool& tool, const Arguments& a, const TriMesh& mesh,
@@ -73,7 +68,7 @@ Json format_report(const Tool& tool, const Arguments& a, const TriMesh& mesh,
 }
 
 void finish_arguments(const Tool& tool, Arguments& a) {
-  check_ending({"-o", tool.common().output}, {".obj", ".ply"}, "an OBJ or a PLY");
+  check_ending({"-o", tool.common().output}, kWrittenEndings, "a mesh");
   a.options.scheme = static_cast<SubdivisionScheme>(place_of(a.scheme, kSchemes));
   a.options.texcoords = static_cast<TexcoordRule>(place_of(a.texcoords, kTexcoords));
 }
@@ -87,10 +82,9 @@ int run(const Tool& tool, const Arguments& a) {
       {"times", a.options.n_times}, {"scheme", a.scheme}, {"texcoords", a.texcoords}};
   const std::vector<std::string> comments = {
       make_provenance(tool, options, {{"mesh", hash}}).dump()};
-  if (is_ply(output))
-    write_ply(output, out.mesh, comments);
-  else
-    write_obj(output, out.mesh, {comments, "", ""});
+  Remarks remarks;
+  write_mesh(output, written_format(output, MeshFormat::obj), out.mesh, comments, &remarks);
+  tool.remark(output, remarks);
   if (!tool.common().json_file.empty()) tool.report(format_report(tool, a, mesh, out));
   tool.say(std::to_string(out.mesh.triangles.size()) + " triangles, " +
            std::to_string(out.mesh.positions.size()) + " vertices");

@@ -35,6 +35,7 @@ std::vector<std::string> LevelWriter::comments_of(const std::string& file,
 void LevelWriter::write_output(std::size_t level, const TriMesh& mesh, const IndexMap* map,
                                const ImageRgba8* normal_map, const Bake& bake) const {
   const std::string output = a_.name_at(tool_.common().output, level);
+  Remarks remarks;
   if (a_.format == LevelFormat::map)
     write_index_map(output, *map, map_label(in_.hash, mesh.triangles.size()));
   else if (a_.format == LevelFormat::png)
@@ -42,15 +43,19 @@ void LevelWriter::write_output(std::size_t level, const TriMesh& mesh, const Ind
   else
     write_glb(output, mesh,
               {encode_png(bake(in_.texture)), normal_map ? encode_png(*normal_map) : "",
-               format_comment()});
+               format_comment()},
+              &remarks);
+  tool_.remark(output, remarks);
 }
 
 void LevelWriter::write_mesh(std::size_t level, const TriMesh& mesh) const {
   const std::string file = a_.name_at(a_.mesh, level);
+  Remarks remarks;
   if (file.ends_with(".obj"))
     write_obj(file, mesh, {{format_comment()}, "", ""});
   else if (!file.empty())
-    write_ply(file, mesh, comments_of(file, level));
+    write_ply(file, mesh, comments_of(file, level), &remarks);
+  tool_.remark(file, remarks);
 }
 
 void LevelWriter::write(std::size_t level, const TriMesh& mesh, const IndexMap* map,
