@@ -12,7 +12,7 @@
 namespace viewcell {
 
 /// {"forward", "backward", "symmetric", "samples", "bbox_diagonal", "unit_cube", ...};
-/// docs/formats.md.
+/// docs/formats.md. Of a point cloud "backward" and "symmetric" are null, and "points" says which.
 Json report_surface_distance(const SurfaceDistance& distance, const DistanceOptions& options);
 
 /// A line a direction, where each is largest, and the histogram where there is one.
@@ -25,7 +25,8 @@ std::array<std::uint8_t, 3> distance_color(double share);
 /// The range [0, forward p99], or where that is 0 [0, forward max].
 std::array<double, 2> default_color_range(const SurfaceDistance& distance);
 
-/// A, where it is and in its own units, as binary PLY: positions, normals where present, float
+/// A, surface or points, where it is and in its own units, as binary PLY: positions, normals where
+/// present (vertices of several are split), float
 /// `distance` (in the units of `distance`) and uchar red, green, blue by the range. Whole or not at
 /// all.
 void write_colored_mesh(const std::filesystem::path& file, const TriMesh& a,

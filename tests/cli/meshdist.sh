@@ -130,11 +130,51 @@ mkdir folder.ply
 bad missing.ply "cannot open"
 bad folder.ply ""
 bad line.off "has no area"
-bad faceless.off "has no faces"
+printf 'OFF\n0 0 0\n' >nothing.off
+bad nothing.off "has no vertices"
 for file in empty.ply noise.ply cut.off nan.off infinite.off index.off; do bad $file ""; done
 cp noise.ply noise.xyz
 bad noise.xyz "is of no known mesh format"
 bad - "is of no known mesh format"  # there is nothing
+
+# Point clouds: every point, one way, whichever is named first.
+printf 'OFF\n3 0 0\n1 1 0\n0.5 0.5 3\n1 1 -2\n' >cloud.off
+expect 0 "$meshdist" low.off cloud.off --histogram 3 --json report.json
+grep -Eq '^forward +3 +1.66667 +' "$log/out" || fail "a cloud: $(cat "$log/out")"
+grep -q "^forward is from the points of B, a point cloud" "$log/out" || fail "which is not said"
+! grep -Eq "^(backward|symmetric)" "$log/out" || fail "a way back from a cloud"
+says report.json '.points == "B" and .forward.max == 3 and .forward.vertices == 3 and .forward.histogram == [1, 0, 2]' ||
+  fail "a cloud: $(cat report.json)"
+says report.json '[.backward, .symmetric, .samples, .seed] == [null, null, null, null]' || fail "a cloud: $(cat report.json)"
+expect 0 "$meshdist" cloud.off low.off --json report.json --color c.ply --range 0:3
+says report.json '.points == "A" and .forward.mean > 1.66 and .forward.p50 == 2' || fail "A: $(cat report.json)"
+grep -aq "^element vertex 3" c.ply && ! grep -aq "^element face" c.ply || fail "coloured points"
+expect 5 "$meshdist" low.off cloud.off --fail-above 2.9 -q
+grep -qx "meshdist: forward maximum 3 is above 2.9" "$log/err" || fail "--fail-above of points"
+for option in "--samples 100" "--seed 1" "--color x.ply"; do
+  # shellcheck disable=SC2086  # words
+  fault 1 "${option%% *}" "$meshdist" low.off cloud.off $option
+  grep -q "cloud.off: is a point cloud" "$log/err" || fail "$option: $(cat "$log/err")"
+done
+fault 1 "cloud.off: is a point cloud, all of whose points are measured: --samples" "$meshdist" cloud.off low.off --samples 100
+fault 1 "cloud.off: has no faces, and neither has faceless.off" "$meshdist" faceless.off cloud.off
+printf 'OFF\n1 0 0\n1 1 1\n' >point.off
+fault 1 "point.off: is one point, which --unit-cube" "$meshdist" point.off low.off --unit-cube
+rm -f c.ply report.json
+
+# Far from the origin: floats are half a unit apart there.
+awk 'BEGIN { print "OFF"; print "8 12 0" } NR > 2 && NF == 3 { printf "%.3f %.3f %.3f\n", 500000 + $1 / 8, 4649776 + $2 / 8, $3 / 8 } NF == 4 { print }' \
+  <(printf 'OFF\n8 12 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n0 0 1\n1 0 1\n1 1 1\n0 1 1\n'
+    printf '3 0 2 1\n3 0 3 2\n3 4 5 6\n3 4 6 7\n3 0 1 5\n3 0 5 4\n3 1 2 6\n3 1 6 5\n3 2 3 7\n3 2 7 6\n3 3 0 4\n3 3 4 7\n') >far.off
+sed 's/^500000.125/500000.130/' far.off >farther.off
+expect 0 "$meshdist" far.off farther.off --samples 1000 --json report.json
+says report.json '.symmetric.max > 0.00499 and .symmetric.max < 0.00501' || fail "far: $(cat report.json)"
+says report.json '.forward.worst.point[0] == 500000.125' || fail "places: $(cat report.json)"
+says report.json '[.remarks[].what | startswith("far from the origin")] == [true, true]' || fail "no remark: $(cat report.json)"
+grep -q "forward is largest at (500000.125, 46497" "$log/out" || fail "digits: $(cat "$log/out")"
+expect 0 "$meshdist" far.off far.off --samples 1000 --color c.ply --fail-above 1e-9
+expect 0 "$meshdist" far.off c.ply --samples 1000 --fail-above 1e-9
+rm -f c.ply report.json
 
 # From pipes, told by what they hold, and names without a known ending.
 expect 0 "$meshdist" a.off b.off --samples 1000

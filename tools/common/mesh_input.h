@@ -35,4 +35,14 @@ inline TriMesh read_surface_input(const Tool& tool, const std::filesystem::path&
   return mesh;
 }
 
+/// read_surface_or_points likewise.
+inline TriMesh read_surface_or_points_input(const Tool& tool, const std::filesystem::path& file,
+                                            std::string* hash = nullptr) {
+  MeshSource source;
+  TriMesh mesh = read_surface_or_points(file, &source);
+  tool.remark(file, source.remarks);
+  if (hash != nullptr) *hash = source.hash;
+  return mesh;
+}
+
 }  // namespace viewcell

@@ -22,20 +22,23 @@ std::array<double, 2> parse_range(const std::string& text) {
 void declare_arguments(Tool& tool, MeshdistArguments& arguments) {
   DistanceOptions& options = arguments.options;
   tool.add_option("A", &arguments.a,
-                  "mesh: OBJ, PLY, PLY.GZ, OFF, STL, GLB, glTF or 3DS (-: stdin)")
+                  "mesh: OBJ, PLY, PLY.GZ, OFF, STL, GLB, glTF or 3DS (-: stdin), or a point cloud")
       .required()
       .reads("A");
   tool.add_option("B", &arguments.b, "the mesh to compare with it").required().reads("B");
-  tool.add_option("--samples", &options.n_samples, "samples on the faces of each mesh")
+  tool.add_option("--samples", &options.n_samples,
+                  "samples on the faces of each mesh; not for a point cloud")
       .show_default()
       .check(in_range(1, 100'000'000));
-  tool.add_option("--seed", &options.seed, "shifts the samples on faces")
+  tool.add_option("--seed", &options.seed, "shifts the samples on faces; not for a point cloud")
       .show_default()
       .check(whole_within(0, std::numeric_limits<decltype(options.seed)>::max()));
   tool.add_flag("--unit-cube", &options.unit_cube,
                 "results as if A were scaled into the unit cube, and B by the same factor");
-  tool.add_option("--color", &arguments.color,
-                  "write A as PLY with distances of vertices, as colours too: green near, blue far")
+  tool.add_option(
+          "--color", &arguments.color,
+          "write A as PLY with distances of vertices, as colours too: green near, blue far; "
+          "not for a point cloud as B")
       .writes();
   tool.add_option("--range", &arguments.range_text,
                   "LO:HI, distances of green and blue (default: 0 to the 99th percentile)");
@@ -47,7 +50,7 @@ void declare_arguments(Tool& tool, MeshdistArguments& arguments) {
       .check(within(1e-30, 1e30))
       .needs("--histogram");
   tool.add_option("--fail-above", &arguments.fail_above,
-                  "exit with 5 when the symmetric maximum is above this")
+                  "exit with 5 when the symmetric maximum, or that of a point cloud, is above this")
       .check(within(0, 1e300));
   tool.add_mesh_limit(tool);
   tool.add_output("write the table to this file (default -: standard output)", false);
