@@ -8,7 +8,7 @@ namespace viewcell {
 
 glm::dmat4 SceneObject::matrix_world_from_model() const {
   glm::dmat4 matrix(glm::mat3_cast(rotation) * scale);
-  matrix[3] = glm::dvec4(translation, 1);
+  matrix[3] = glm::dvec4(place(), 1);
   return matrix;
 }
 

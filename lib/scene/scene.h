@@ -32,15 +32,17 @@ struct SceneMesh {
   std::string file;  ///< as written in scene.json, relative to it
   std::string up = "z";
   double scale = 1;
-  std::string substitutes;      ///< what this mesh stands in for; empty: it is what its name says
-  std::string hash;             ///< hash_hex() of the bytes that were parsed
+  std::string origin =
+      "file";               ///< model space has the file's origin, or "centre": its box's middle
+  std::string substitutes;  ///< what this mesh stands in for; empty: it is what its name says
+  std::string hash;         ///< hash_hex() of the bytes that were parsed
   std::size_t n_triangles = 0;  ///< known even when the scene was read without meshes
   TriMesh mesh;     ///< as drawn, one normal a vertex; empty when the scene was read without meshes
   VertexWeld weld;  ///< which of its vertices are one
   bool has_twins = false;  ///< see SplitMesh: parts of it are seen from both sides
 };
 
-/// A placed instance: world = translation + rotation * (scale * model).
+/// A placed instance: world = translation + rotation * (scale * model), the mesh's offset included.
 struct SceneObject {
   std::string name;
   MeshId mesh{};
@@ -48,13 +50,17 @@ struct SceneObject {
   glm::dvec3 translation{0};
   glm::dquat rotation{1, 0, 0, 0};
   double scale = 1;
+  /// rotation * (scale * offset) of its mesh, whose positions are about that (TriMesh::offset); 0
+  /// of most, and when the scene was read without meshes.
+  glm::dvec3 mesh_offset_world{0};
 
   glm::dvec3 world_from_model(const glm::dvec3& p) const {
-    return translation + rotation * (scale * p);
+    return place() + rotation * (scale * p);
   }
   glm::dvec3 model_from_world(const glm::dvec3& p) const {
-    return glm::conjugate(rotation) * (p - translation) / scale;
+    return glm::conjugate(rotation) * (p - place()) / scale;
   }
+  glm::dvec3 place() const { return translation + mesh_offset_world; }
   glm::dmat4 matrix_world_from_model() const;
 };
 
@@ -91,10 +97,11 @@ struct ReadSceneOptions {
 /// does.
 glm::vec3 turn_up_axis(const std::string& up, const glm::vec3& p);
 
-/// Reads scene.json and the meshes that it names. Every path must stay inside its folder; a mesh
-/// file must be the one that the scene was written with ("hash", "triangles"; a scene written by
-/// hand may leave both out, and its meshes are then read even without with_meshes).
-/// Throws InputError (file, place).
+/// Reads scene.json and the meshes that it names. A mesh far from its origin must be brought near
+/// the world's, by its object's translation or by its "origin": floats would be too coarse. Every
+/// path must stay inside its folder; a mesh file must be the one that the scene was written with
+/// ("hash", "triangles"; a scene written by hand may leave both out, and its meshes are then read
+/// even without with_meshes). Throws InputError (file, place).
 Scene read_scene(const std::filesystem::path& file, const ReadSceneOptions& options = {});
 
 /// scene.json without the mesh files, which the caller writes beside it.

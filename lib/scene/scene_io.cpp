@@ -41,13 +41,15 @@ Json to_json(const Material& material) {
 
 Json to_json(const SceneMesh& mesh) {
   VIEWCELL_CHECK(!mesh.hash.empty() && mesh.n_triangles > 0, mesh.name);
-  return {{"name", mesh.name},
-          {"file", mesh.file},
-          {"up", mesh.up},
-          {"scale", mesh.scale},
-          {"triangles", mesh.n_triangles},
-          {"hash", mesh.hash},
-          {"substitutes", mesh.substitutes}};
+  Json out = {{"name", mesh.name},
+              {"file", mesh.file},
+              {"up", mesh.up},
+              {"scale", mesh.scale},
+              {"triangles", mesh.n_triangles},
+              {"hash", mesh.hash},
+              {"substitutes", mesh.substitutes}};
+  if (mesh.origin != "file") out["origin"] = mesh.origin;
+  return out;
 }
 
 Json to_json(const SceneObject& object) {
@@ -121,6 +123,9 @@ SceneMesh read_mesh_entry(const JsonCursor& cursor) {
   if (mesh.up != "x" && mesh.up != "y" && mesh.up != "z")
     cursor.at("up").fail("'" + mesh.up + "' is not x, y or z");
   mesh.scale = cursor.at("scale").number(kMinScale, kMaxScale);
+  if (cursor.has("origin")) mesh.origin = cursor.at("origin").string();
+  if (mesh.origin != "file" && mesh.origin != "centre")
+    cursor.at("origin").fail("'" + mesh.origin + "' is not file or centre");
   if (cursor.has("triangles"))
     mesh.n_triangles = static_cast<std::size_t>(cursor.at("triangles").integer(1, 1LL << 32));
   if (cursor.has("hash")) mesh.hash = cursor.at("hash").string();
@@ -154,8 +159,21 @@ SceneObject read_object(const JsonCursor& cursor, const Scene& scene) {
   return object;
 }
 
+// Positions about the middle of the box of the vertices that triangles use.
+void centre_positions(TriMesh& mesh) {
+  Box box;
+  for (const Triangle& t : mesh.triangles)
+    for (const std::uint32_t v : t) box.add(glm::dvec3(mesh.positions[v]));
+  for (glm::vec3& p : mesh.positions) p = glm::vec3(glm::dvec3(p) - box.centre());
+  mesh.offset = glm::dvec3(0);
+}
+
 // Turns the file's up axis to z and applies its scale.
 void apply_up_and_scale(SceneMesh& mesh) {
+  const glm::dmat3 turn(glm::dvec3(turn_up_axis(mesh.up, {1, 0, 0})),
+                        glm::dvec3(turn_up_axis(mesh.up, {0, 1, 0})),
+                        glm::dvec3(turn_up_axis(mesh.up, {0, 0, 1})));
+  mesh.mesh.offset = mesh.scale * (turn * mesh.mesh.offset);
   for (glm::vec3& p : mesh.mesh.positions)
     p = turn_up_axis(mesh.up, p) * static_cast<float>(mesh.scale);
   for (glm::vec3& n : mesh.mesh.normals) n = turn_up_axis(mesh.up, n);
@@ -178,10 +196,12 @@ FileRemarks load_mesh(const std::filesystem::path& scene_file, const std::string
         scene_file.string(), place + ".triangles",
         std::to_string(mesh.n_triangles) + ", but '" + mesh.file + "' has " + std::to_string(n));
   mesh.n_triangles = n;
+  if (mesh.origin == "centre") centre_positions(mesh.mesh);
   apply_up_and_scale(mesh);
   const Box box = bounding_box(mesh.mesh);
+  const glm::dvec3 lo = box.lo + mesh.mesh.offset, hi = box.hi + mesh.mesh.offset;
   for (int axis = 0; axis < 3; ++axis)
-    if (!(box.lo[axis] >= -kMaxCoordinate && box.hi[axis] <= kMaxCoordinate))
+    if (!(lo[axis] >= -kMaxCoordinate && hi[axis] <= kMaxCoordinate))
       throw InputError(file.string(), "", "coordinates leave +-1e7 after scaling");
   SplitMesh split = split_corners(std::move(mesh.mesh));
   mesh.mesh = std::move(split.mesh);
@@ -228,6 +248,25 @@ void remark_scene_keys(const JsonCursor& root, Remarks& remarks) {
   each("objects", "an object", kObject);
 }
 
+// Places an object whose mesh is about an offset, and refuses it where floats, which everything is
+// drawn with, would show: a step of 2^-12 of its size is a quarter of a pixel of a thousand.
+void place_object(const std::string& file, std::size_t id, const SceneMesh& mesh,
+                  SceneObject& object) {
+  constexpr double kMostStepShare = 0x1p-12;
+  if (mesh.mesh.offset == glm::dvec3(0)) return;
+  object.mesh_offset_world = object.rotation * (object.scale * mesh.mesh.offset);
+  Box box;
+  for (const glm::vec3& p : mesh.mesh.positions) box.add(object.world_from_model(glm::dvec3(p)));
+  const glm::dvec3 reach = glm::max(glm::abs(box.lo), glm::abs(box.hi)), size = box.size();
+  const double most = std::max({reach.x, reach.y, reach.z});
+  const double step = std::ldexp(1.0, std::ilogb(most) - 23);  // between floats
+  if (step <= kMostStepShare * std::max({size.x, size.y, size.z})) return;
+  throw InputError(file, "objects[" + std::to_string(id) + "].translation",
+                   "takes '" + mesh.name + "' to where floats are " + std::to_string(step) +
+                       " apart: its file has it far from the origin. Say \"origin\": \"centre\" of "
+                       "the mesh, or move the object near the origin");
+}
+
 }  // namespace
 
 Scene read_scene(const std::filesystem::path& file, const ReadSceneOptions& options) {
@@ -250,6 +289,8 @@ Scene read_scene(const std::filesystem::path& file, const ReadSceneOptions& opti
   remark_scene_keys(root, remarks);
   if (!remarks.empty()) scene.remarks.push_back({file, std::move(remarks)});
   load_meshes(file, options, scene);
+  for (std::size_t i = 0; i < scene.objects.size(); ++i)
+    place_object(file.string(), i, scene.mesh_of(scene.objects[i]), scene.objects[i]);
   std::string hashes = hash_hex(json.dump());
   for (const SceneMesh& mesh : scene.meshes) hashes += mesh.hash;
   scene.hash = hash_hex(hashes);

@@ -204,6 +204,65 @@ TEST(Scene, BadMeshFilesAreRefused) {
   EXPECT_INPUT_ERROR(read_scene(file), "tall.off");
 }
 
+// ---- meshes far from the origin of their files ----
+
+// A cube of side 4, its middle at (500002, 4649778.25, 212).
+std::string far_cube() {
+  std::string out = "OFF\n8 6 0\n";
+  for (const glm::vec3& p : cube_positions())
+    out += std::to_string(500000 + 4.0 * p.x) + " " + std::to_string(4649776.25 + 4.0 * p.y) + " " +
+           std::to_string(210 + 4.0 * p.z) + "\n";
+  return out + cube_off().substr(cube_off().find("4 3 2 1 0"));
+}
+
+struct FarScene : SmallSceneFolder {
+  FarScene() {
+    folder().add("tall.off", far_cube());
+    Json& mesh = json()["meshes"][1];
+    mesh.erase("hash");
+    mesh["up"] = "z";
+    mesh["scale"] = 0.5;
+    json()["objects"][1]["rotation"] = {0, 0, 0, 1};
+    json()["objects"][1]["translation"] = {0, 0, 0};
+  }
+};
+
+TEST(FarScene, IsRefusedWhereFloatsAreTooCoarse) {
+  FarScene far;
+  EXPECT_INPUT_ERROR(read_scene(far.write()), "objects[1].translation: takes 'tall' to where");
+  EXPECT_INPUT_ERROR(read_scene(far.write()), "\"origin\": \"centre\"");
+  far.json()["meshes"][1]["origin"] = "middle";
+  EXPECT_INPUT_ERROR(read_scene(far.write()), "meshes[1].origin: 'middle' is not file or centre");
+}
+
+TEST(FarScene, IsBroughtNearByItsTranslation) {
+  FarScene far;
+  far.json()["objects"][1]["translation"] = {-250000, -2324888, -105};
+  const Scene scene = read_scene(far.write());
+  const Box box = world_box(scene, scene.objects[1]);
+  EXPECT_LT(glm::distance(box.lo, glm::dvec3(0, 0.125, 0)), 1e-6);
+  EXPECT_LT(glm::distance(box.hi, glm::dvec3(2, 2.125, 2)), 1e-6);
+  const glm::dvec3 p(1, 2, 3);
+  const SceneObject& object = scene.objects[1];
+  EXPECT_LT(glm::distance(object.model_from_world(object.world_from_model(p)), p), 1e-9);
+  EXPECT_LT(glm::distance(glm::dvec3(object.matrix_world_from_model() * glm::dvec4(p, 1)),
+                          object.world_from_model(p)),
+            1e-9);
+  EXPECT_EQ(object.translation, glm::dvec3(-250000, -2324888, -105));  // as the file has it
+}
+
+TEST(FarScene, IsBroughtNearByItsOrigin) {
+  FarScene far;
+  far.json()["meshes"][1]["origin"] = "centre";
+  far.json()["objects"][1]["translation"] = {10, 20, 30};
+  const Scene scene = read_scene(far.write());
+  const Box box = world_box(scene, scene.objects[1]);
+  EXPECT_LT(glm::distance(box.lo, glm::dvec3(9, 19, 29)), 1e-6);
+  EXPECT_LT(glm::distance(box.hi, glm::dvec3(11, 21, 31)), 1e-6);
+  EXPECT_EQ(format_scene(scene, {{"tool", "test"}})["meshes"][1]["origin"], "centre");
+  EXPECT_FALSE(format_scene(scene, {{"tool", "test"}})["meshes"][0].contains("origin"));
+}
+
 TEST(Scene, ALinkOutOfTheFolderIsRefused) {
   SmallSceneFolder small;
   TemporaryFolder elsewhere;

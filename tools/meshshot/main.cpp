@@ -17,12 +17,18 @@ namespace {
 
 namespace fs = std::filesystem;
 
+Box moved(const Box& box, const glm::dvec3& by) {
+  return {box.lo + by, box.hi + by};
+}
+
+// In the mesh's coordinates about its offset.
 MeshFrame choose_frame(const Tool& tool, MeshshotArguments& o, const TriMesh& mesh) {
   const std::string& source = o.like_file.empty() ? o.mesh_file : o.like_file;
   const std::string up = o.up == "auto" ? up_axis_of(source) : o.up;
-  if (!o.box.empty()) return make_frame(parse_box(o.box), up, "--box");
+  if (!o.box.empty()) return make_frame(moved(parse_box(o.box), -mesh.offset), up, "--box");
   if (o.like_file.empty()) return make_frame(box_of_triangles(mesh), up, source);
-  return make_frame(box_of_triangles(read_mesh_input(tool, o.like_file, &o.like_hash)), up, source);
+  const TriMesh like = read_mesh_input(tool, o.like_file, &o.like_hash);
+  return make_frame(moved(box_of_triangles(like), like.offset - mesh.offset), up, source);
 }
 
 struct Textures {
@@ -80,11 +86,13 @@ int run(const Tool& tool, MeshshotArguments& o) {
   const double views_s = watch.lap_s();
 
   const double reach = measure_reach(mesh, frame);
+  MeshFrame in_file = frame;
+  in_file.centre += mesh.offset;
   tool.report({{"made_by", format_provenance(tool, o)},
                {"triangles", mesh.triangles.size()},
-               {"frame", format_frame(frame)},
+               {"frame", format_frame(in_file)},
                {"reach", reach},
-               {"views", format_shots(shots, frame)},
+               {"views", format_shots(shots, in_file)},
                {"renderer", context.renderer()},
                {"timing", {{"read_s", read_s}, {"upload_s", upload_s}, {"views_s", views_s}}}});
   if (reach > kViewMargin)
