@@ -8,10 +8,10 @@
 namespace viewcell {
 
 /// Zero while the step between floats as large as the box's largest coordinate is at most 2^-18 of
-/// the box's longest side: for every mesh nearer to the origin than some 32 of its sizes; also
-/// of a point that floats hold. Otherwise, for each axis on which coordinates are above 8 longest sides, the box's middle,
-/// rounded to a multiple of a power of two not below the longest side: floats less the offset, and
-/// the sums of both as doubles, are exact.
+/// the box's longest side: for every mesh nearer to the origin than some 32 of its sizes; and for a
+/// point that floats hold. Otherwise, for each axis on which coordinates are above 8 longest sides,
+/// the box's middle, rounded to a multiple of a power of two not below the longest side: floats
+/// less the offset, and the sums of both as doubles, are exact.
 glm::dvec3 choose_offset(const Box& box);
 
 /// Whether positions about the offset are as fine as about the one chosen: the box is within 8 of
