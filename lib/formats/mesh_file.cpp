@@ -54,7 +54,8 @@ Reader reader_by_name(const std::filesystem::path& file) {
 
 // A vertex in a line of its own.
 bool has_obj_vertex(std::string_view bytes) {
-  return bytes.starts_with("v ") || bytes.find("\nv ") != std::string_view::npos;
+  return bytes.starts_with("v ") || bytes.find("\nv ") != std::string_view::npos ||
+         bytes.find("\rv ") != std::string_view::npos;
 }
 
 // By what the file holds; nothing known: nullptr.

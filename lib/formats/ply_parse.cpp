@@ -37,7 +37,9 @@ std::uint64_t type_bytes(PlyType type) {
 class HeaderParser {
  public:
   HeaderParser(std::string_view bytes, PlyDocument& document)
-      : bytes_(bytes), document_(document) {}
+      : bytes_(bytes),
+        document_(document),
+        break_(bytes.starts_with("ply\r") && !bytes.starts_with("ply\r\n") ? '\r' : '\n') {}
 
   Header parse() {
     if (next_line() != "ply") fail("is not a PLY file: its first line is not 'ply'");
@@ -51,7 +53,7 @@ class HeaderParser {
  private:
   // Without the line break; blanks at the end are dropped.
   std::string_view next_line() {
-    const std::size_t end = bytes_.substr(at_, kMostLineBytes).find('\n');
+    const std::size_t end = bytes_.substr(at_, kMostLineBytes).find(break_);
     ++header_.n_lines;
     if (end == std::string_view::npos)
       fail(bytes_.size() - at_ > kMostLineBytes ? "a header line is too long"
@@ -159,6 +161,7 @@ class HeaderParser {
 
   std::string_view bytes_;
   PlyDocument& document_;
+  char break_;  // lines end by it
   Header header_;
   bool has_format_ = false;
   std::size_t at_ = 0;

@@ -14,10 +14,6 @@ namespace {
 
 constexpr std::string_view kMark = "\xef\xbb\xbf";
 
-bool is_blank(char c) {
-  return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f';
-}
-
 template <typename Real>
 bool parse_real(std::string_view word, Real& out) {
   if (!word.empty() && word[0] == '+') word.remove_prefix(1);  // from_chars takes no plus sign
@@ -47,6 +43,13 @@ bool is_between_floats(double x) {
 }
 
 }  // namespace
+
+char line_break_of(std::string_view text) {
+  const std::size_t first = text.find_first_of("\r\n");
+  const bool is_alone = first != std::string_view::npos && text[first] == '\r' &&
+                        text.find('\n', first) == std::string_view::npos;
+  return is_alone ? '\r' : '\n';
+}
 
 std::string_view skip_byte_order_mark(std::string_view bytes, const std::string& file) {
   using namespace std::string_view_literals;
@@ -98,7 +101,7 @@ std::string_view TextCursor::word_in_line() {
 }
 
 void TextCursor::skip_line() {
-  const std::size_t end = text_.find('\n', at_);
+  const std::size_t end = text_.find(break_, at_);
   at_ = end == std::string_view::npos ? text_.size() : end + 1;
   ++line_;
 }
@@ -135,11 +138,15 @@ void TextCursor::fail(const std::string& what) const {
   throw InputError(file_, "line " + std::to_string(line_), what);
 }
 
+bool TextCursor::is_blank(char c) const {
+  return c != break_ && (c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f');
+}
+
 // A backslash before the end of a line joins it to the next (OBJ).
 bool TextCursor::is_continuation() const {
   if (text_[at_] != '\\') return false;
   const std::string_view after = text_.substr(at_ + 1, 2);
-  return after.starts_with('\n') || after == "\r\n";
+  return after.starts_with(break_) || after == "\r\n";
 }
 
 bool TextCursor::is_mark() const {
@@ -149,7 +156,7 @@ bool TextCursor::is_mark() const {
 void TextCursor::skip_space_in_line() {
   for (; at_ < text_.size(); ++at_) {
     if (is_continuation()) {
-      at_ = text_.find('\n', at_);
+      at_ = text_.find(break_, at_);
       ++line_;
     } else if (is_mark()) {
       at_ += kMark.size() - 1;
@@ -158,13 +165,13 @@ void TextCursor::skip_space_in_line() {
     }
   }
   if (comment_ && at_ < text_.size() && text_[at_] == comment_)
-    at_ = std::min(text_.find('\n', at_), text_.size());
+    at_ = std::min(text_.find(break_, at_), text_.size());
 }
 
 void TextCursor::skip_space() {
   for (;;) {
     skip_space_in_line();
-    if (at_ == text_.size() || text_[at_] != '\n') return;
+    if (at_ == text_.size() || text_[at_] != break_) return;
     ++at_;
     ++line_;
   }
@@ -172,7 +179,7 @@ void TextCursor::skip_space() {
 
 std::string_view TextCursor::take_word() {
   const std::size_t start = at_;
-  while (at_ < text_.size() && !is_blank(text_[at_]) && text_[at_] != '\n' && !is_continuation())
+  while (at_ < text_.size() && !is_blank(text_[at_]) && text_[at_] != break_ && !is_continuation())
     ++at_;
   return text_.substr(start, at_ - start);
 }

@@ -11,6 +11,9 @@ namespace viewcell {
 /// format. Throws InputError for marks of UTF-16 and UTF-32.
 std::string_view skip_byte_order_mark(std::string_view bytes, const std::string& file);
 
+/// The line breaks of a text: '\n', or '\r' where that stands alone, as of old Macintoshes.
+char line_break_of(std::string_view text);
+
 /// A word as a finite float; false when it is not one ("nan", "1e99" and "12x" are not).
 bool parse_finite(std::string_view word, float& out);
 bool parse_finite(std::string_view word, double& out);
@@ -29,7 +32,11 @@ class TextCursor {
   /// comment: '#', or 0 for none. first_line: the number of the text's first line.
   TextCursor(std::string_view text, std::string file, char comment = '#',
              std::int64_t first_line = 1)
-      : text_(text), file_(std::move(file)), comment_(comment), line_(first_line) {}
+      : text_(text),
+        file_(std::move(file)),
+        comment_(comment),
+        break_(line_break_of(text)),
+        line_(first_line) {}
 
   /// True when no word is left.
   bool at_end();
@@ -56,13 +63,14 @@ class TextCursor {
  private:
   void skip_space();
   void skip_space_in_line();
+  bool is_blank(char c) const;
   bool is_continuation() const;
   bool is_mark() const;
   std::string_view take_word();
 
   std::string_view text_;
   std::string file_;
-  char comment_;
+  char comment_, break_;
   std::size_t at_ = 0;
   std::int64_t line_;
 };

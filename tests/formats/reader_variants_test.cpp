@@ -90,6 +90,24 @@ TEST(ByteOrderMark, OfUtf16IsRefusedByName) {
   EXPECT_EQ(read_bytes("m.stl", binary).mesh.positions.size(), 8u);
 }
 
+// ---- line breaks ----
+
+TEST(LineBreaks, OfAnyMachine) {
+  for (const auto& [name, text] :
+       {std::pair("m.obj", cube_obj()), std::pair("m.off", cube_off()),
+        std::pair("m.ply", cube_ply()), std::pair("m.stl", cube_stl_text())}) {
+    SCOPED_TRACE(name);
+    std::string macintosh = text, windows;
+    std::replace(macintosh.begin(), macintosh.end(), '\n', '\r');
+    for (const char c : text) windows += c == '\n' ? std::string("\r\n") : std::string(1, c);
+    for (const std::string& other : {macintosh, windows}) {
+      const TriMesh mesh = read_bytes(name, other).mesh;
+      EXPECT_EQ(mesh.triangles, read_bytes(name, text).mesh.triangles);
+      EXPECT_EQ(mesh.positions, read_bytes(name, text).mesh.positions);
+    }
+  }
+}
+
 // ---- OFF ----
 
 TEST(OffVariants, HeadersTouchTheirCounts) {
