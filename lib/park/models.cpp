@@ -32,12 +32,19 @@ std::optional<std::size_t> find_kind(const std::string& name) {
   return {};
 }
 
+std::string list_kinds() {
+  std::string names;
+  for (const StatueKind& kind : statue_kinds())
+    names += (names.empty() ? "" : ", ") + std::string(kind.name);
+  return names;
+}
+
 Offer read_offer(const JsonCursor& cursor) {
   Offer offer;
   offer.file = resolve_inside(cursor.file(), cursor.at("file").place(), cursor.at("file").string());
   if (cursor.has("up")) offer.up = cursor.at("up").string();
-  if (offer.up != "x" && offer.up != "y" && offer.up != "z")
-    cursor.at("up").fail("'" + offer.up + "' is not x, y or z");
+  if (!is_up_axis(offer.up))
+    cursor.at("up").fail("'" + offer.up + "' is not x, y or z, or -x, -y, -z");
   if (cursor.has("rotate_z_deg")) offer.rotate_z_deg = cursor.at("rotate_z_deg").number(-360, 360);
   if (cursor.has("substitutes")) offer.substitutes = cursor.at("substitutes").string();
   return offer;
@@ -56,7 +63,9 @@ Offers read_offers(const fs::path& list, Remarks& remarks) {
   for (std::size_t i = 0; i < n; ++i) {
     const std::string name = models.at(i).at("name").string();
     const auto kind = find_kind(name);
-    if (!kind) models.at(i).at("name").fail("'" + name + "' is not a kind of statue");
+    if (!kind)
+      models.at(i).at("name").fail("'" + name + "' is not a kind of statue; kinds are " +
+                                   list_kinds());
     if (offers[*kind]) models.at(i).at("name").fail("'" + name + "' is there twice");
     offers[*kind] = read_offer(models.at(i));
     remark_unknown_keys(models.at(i), "a model", kModel, &remarks);

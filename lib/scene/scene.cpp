@@ -1,5 +1,7 @@
 #include "scene/scene.h"
 
+#include <algorithm>
+#include <array>
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "base/error.h"
@@ -12,7 +14,15 @@ glm::dmat4 SceneObject::matrix_world_from_model() const {
   return matrix;
 }
 
+bool is_up_axis(const std::string& up) {
+  constexpr std::array<const char*, 6> kAxes{"x", "y", "z", "-x", "-y", "-z"};
+  return std::find(kAxes.begin(), kAxes.end(), up) != kAxes.end();
+}
+
 glm::vec3 turn_up_axis(const std::string& up, const glm::vec3& p) {
+  if (up == "-x") return {p.z, p.y, -p.x};
+  if (up == "-y") return {p.x, p.z, -p.y};
+  if (up == "-z") return {p.x, -p.y, -p.z};
   if (up == "y") return {p.x, -p.z, p.y};
   if (up == "x") return {p.y, p.z, p.x};
   return p;

@@ -32,8 +32,9 @@ struct SceneMesh {
   std::string file;  ///< as written in scene.json, relative to it
   std::string up = "z";
   double scale = 1;
-  std::string origin =
-      "file";               ///< model space has the file's origin, or "centre": its box's middle
+  /// "file": as the file has it; "centre": its box's middle is the origin; "ground": the middle at
+  /// x = y = 0, the lowest point at z = 0.
+  std::string place = "file";
   std::string substitutes;  ///< what this mesh stands in for; empty: it is what its name says
   std::string hash;         ///< hash_hex() of the bytes that were parsed
   std::size_t n_triangles = 0;  ///< known even when the scene was read without meshes
@@ -93,12 +94,14 @@ struct ReadSceneOptions {
   MeshLimits limits;  ///< of each mesh file
 };
 
-/// A point or direction of a space whose axis `up` ("x", "y" or "z") points up, turned so that z
-/// does.
+/// Whether `up` is one of "x", "y", "z", "-x", "-y", "-z".
+bool is_up_axis(const std::string& up);
+
+/// A point or direction of a space whose axis `up` points up, turned so that z does.
 glm::vec3 turn_up_axis(const std::string& up, const glm::vec3& p);
 
 /// Reads scene.json and the meshes that it names. A mesh far from its origin must be brought near
-/// the world's, by its object's translation or by its "origin": floats would be too coarse. Every
+/// the world's, by its object's translation or by its "place": floats would be too coarse. Every
 /// path must stay inside its folder; a mesh file must be the one that the scene was written with
 /// ("hash", "triangles"; a scene written by hand may leave both out, and its meshes are then read
 /// even without with_meshes). Throws InputError (file, place).

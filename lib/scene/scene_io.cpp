@@ -48,7 +48,7 @@ Json to_json(const SceneMesh& mesh) {
               {"triangles", mesh.n_triangles},
               {"hash", mesh.hash},
               {"substitutes", mesh.substitutes}};
-  if (mesh.origin != "file") out["origin"] = mesh.origin;
+  if (mesh.place != "file") out["place"] = mesh.place;
   return out;
 }
 
@@ -120,12 +120,12 @@ SceneMesh read_mesh_entry(const JsonCursor& cursor) {
   mesh.file = cursor.at("file").string();
   resolve_inside(cursor.file(), cursor.at("file").place(), mesh.file);
   mesh.up = cursor.at("up").string();
-  if (mesh.up != "x" && mesh.up != "y" && mesh.up != "z")
-    cursor.at("up").fail("'" + mesh.up + "' is not x, y or z");
+  if (!is_up_axis(mesh.up))
+    cursor.at("up").fail("'" + mesh.up + "' is not x, y or z, or -x, -y, -z");
   mesh.scale = cursor.at("scale").number(kMinScale, kMaxScale);
-  if (cursor.has("origin")) mesh.origin = cursor.at("origin").string();
-  if (mesh.origin != "file" && mesh.origin != "centre")
-    cursor.at("origin").fail("'" + mesh.origin + "' is not file or centre");
+  if (cursor.has("place")) mesh.place = cursor.at("place").string();
+  if (mesh.place != "file" && mesh.place != "centre" && mesh.place != "ground")
+    cursor.at("place").fail("'" + mesh.place + "' is not file, centre or ground");
   if (cursor.has("triangles"))
     mesh.n_triangles = static_cast<std::size_t>(cursor.at("triangles").integer(1, 1LL << 32));
   if (cursor.has("hash")) mesh.hash = cursor.at("hash").string();
@@ -180,6 +180,16 @@ void apply_up_and_scale(SceneMesh& mesh) {
   for (glm::vec3& n : mesh.mesh.corner_normals) n = turn_up_axis(mesh.up, n);
 }
 
+// After that: the middle of what triangles show at x = y = 0, its lowest point at z = 0.
+void set_on_ground(TriMesh& mesh) {
+  Box box;
+  for (const Triangle& t : mesh.triangles)
+    for (const std::uint32_t v : t) box.add(glm::dvec3(mesh.positions[v]));
+  const glm::dvec3 foot(box.centre().x, box.centre().y, box.lo.z);
+  for (glm::vec3& p : mesh.positions) p = glm::vec3(glm::dvec3(p) - foot);
+  mesh.offset = glm::dvec3(0);
+}
+
 // Reads and checks one mesh file; place: "meshes[3]". Returns what is to be said of it.
 FileRemarks load_mesh(const std::filesystem::path& scene_file, const std::string& place,
                       const MeshLimits& limits, SceneMesh& mesh) {
@@ -196,8 +206,9 @@ FileRemarks load_mesh(const std::filesystem::path& scene_file, const std::string
         scene_file.string(), place + ".triangles",
         std::to_string(mesh.n_triangles) + ", but '" + mesh.file + "' has " + std::to_string(n));
   mesh.n_triangles = n;
-  if (mesh.origin == "centre") centre_positions(mesh.mesh);
+  if (mesh.place == "centre") centre_positions(mesh.mesh);
   apply_up_and_scale(mesh);
+  if (mesh.place == "ground") set_on_ground(mesh.mesh);
   const Box box = bounding_box(mesh.mesh);
   const glm::dvec3 lo = box.lo + mesh.mesh.offset, hi = box.hi + mesh.mesh.offset;
   for (int axis = 0; axis < 3; ++axis)
@@ -231,7 +242,7 @@ void remark_scene_keys(const JsonCursor& root, Remarks& remarks) {
   constexpr const char* kLight[] = {"toward_light", "color", "ambient_sky", "ambient_ground"};
   constexpr const char* kMaterial[] = {"name", "base_color", "base_color_texture", "double_sided"};
   constexpr const char* kMesh[] = {"name",   "file",      "up",   "scale",
-                                   "origin", "triangles", "hash", "substitutes"};
+                                   "place", "triangles", "hash", "substitutes"};
   constexpr const char* kObject[] = {"name",        "mesh",     "material",
                                      "translation", "rotation", "scale"};
   remark_unknown_keys(root, "the scene", kScene, &remarks);
@@ -263,7 +274,7 @@ void place_object(const std::string& file, std::size_t id, const SceneMesh& mesh
   if (step <= kMostStepShare * std::max({size.x, size.y, size.z})) return;
   throw InputError(file, "objects[" + std::to_string(id) + "].translation",
                    "takes '" + mesh.name + "' to where floats are " + std::to_string(step) +
-                       " apart: its file has it far from the origin. Say \"origin\": \"centre\" of "
+                       " apart: its file has it far from the origin. Say \"place\": \"centre\" of "
                        "the mesh, or move the object near the origin");
 }
 

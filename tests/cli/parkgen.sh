@@ -11,7 +11,8 @@ expect 0 "$parkgen" --help
 grep -q "Example:" "$log/out" || fail "--help has no example"
 expect 0 "$parkgen" --version
 expect 0 "$parkgen" --list
-[ "$(wc -l <"$log/out")" -eq 8 ] || fail "--list has not eight lines"
+[ "$(wc -l <"$log/out")" -eq 9 ] || fail "--list has not a heading and eight lines"
+head -n 1 "$log/out" | grep -q "^kind.triangles.width" || fail "no heading: $(head -n 1 "$log/out")"
 grep -qP '^dragon\t202520\t57.3\t25.6\t40.4\t4\t10\t18\t' "$log/out" || fail "--list: $(cat "$log/out")"
 
 # A park: the report alone on stdout, the summary on stderr.

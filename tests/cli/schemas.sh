@@ -38,7 +38,20 @@ for pair in scene:park/scene.json path:park/path.json cells:cells.json \
   stats:stats.json stats:some.json stats:none.json; do
   check "${pair%%:*}" "${pair#*:}" || fail "$pair"
 done
+cat >models.json <<'JSON'
+{"format": "viewcell-models", "version": 1,
+ "models": [{"name": "bunny", "file": "hare.ply", "up": "-z", "rotate_z_deg": 90, "substitutes": "a hare", "source": "x"}]}
+JSON
+check models models.json || fail "models.json"
+jq '.meshes[0] |= . + {"place": "ground", "up": "-y"}' park/scene.json >ground.json
+check scene ground.json || fail "place"
+# Kinds in the schema are the tool's.
+"$bin/parkgen" --list | tail -n +2 | cut -f 1 >kinds
+jq -r '.properties.models.items.properties.name.enum[]' "$schemas/models.schema.json" | cmp -s - kinds ||
+  fail "the schema has other kinds"
 # They bite.
+jq '.models[0].up = "up"' models.json >bad.json
+refused models bad.json "'up' is not one of"
 jq '.columns = "four"' cells.json >bad.json
 refused cells bad.json "columns: 'four' is not of type 'integer'"
 jq '.modes |= map_values(del(.psnr_db))' stats.json >bad.json

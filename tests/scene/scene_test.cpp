@@ -47,10 +47,28 @@ TEST(Scene, MeshesComeUprightScaledAndWithNormals) {
 
 TEST(Scene, TurningUpAxesIsARotation) {
   const glm::vec3 x(1, 0, 0), y(0, 1, 0), z(0, 0, 1);
-  for (const char* up : {"x", "y", "z"}) {
+  for (const std::string up : {"x", "y", "z", "-x", "-y", "-z"}) {
     const glm::vec3 a = turn_up_axis(up, x), b = turn_up_axis(up, y), c = turn_up_axis(up, z);
     EXPECT_EQ(glm::cross(a, b), c) << up;
-    EXPECT_EQ(turn_up_axis(up, up[0] == 'x' ? x : up[0] == 'y' ? y : z), z) << up;
+    const glm::vec3 axis = up.back() == 'x' ? x : up.back() == 'y' ? y : z;
+    EXPECT_EQ(turn_up_axis(up, up.size() == 2 ? -axis : axis), z) << up;
+    EXPECT_TRUE(is_up_axis(up));
+  }
+}
+
+// The cube [0, 1]^3 with y up and scale 2.5, wherever its file has it.
+TEST(Scene, PlacedOnTheGround) {
+  SmallSceneFolder small;
+  for (const char* up : {"y", "-y", "z", "-x"}) {
+    SCOPED_TRACE(up);
+    small.json()["meshes"][1]["up"] = up;
+    small.json()["meshes"][1]["place"] = "ground";
+    const Scene scene = read_scene(small.write());
+    const Box box = bounding_box(scene.meshes[1].mesh);
+    EXPECT_EQ(box.lo, glm::dvec3(-1.25, -1.25, 0));
+    EXPECT_EQ(box.hi, glm::dvec3(1.25, 1.25, 2.5));
+    EXPECT_EQ(format_scene(scene, {})["meshes"][1]["place"], "ground");
+    EXPECT_FALSE(format_scene(scene, {})["meshes"][0].contains("place"));
   }
 }
 
@@ -159,6 +177,9 @@ TEST(Scene, BadScenesAreRefusedWithThePlace) {
        [](Json& j) { j["objects"][0]["translation"][1] = 1e8; }},
       {"meshes[0].scale", "is not within", [](Json& j) { j["meshes"][0]["scale"] = 0; }},
       {"meshes[0].up", "is not x, y or z", [](Json& j) { j["meshes"][0]["up"] = "w"; }},
+      {"meshes[0].up", "is not x, y or z", [](Json& j) { j["meshes"][0]["up"] = "-w"; }},
+      {"meshes[0].place", "is not file or ground",
+       [](Json& j) { j["meshes"][0]["place"] = "sky"; }},
       {"meshes[0].file", "leaves the file's folder",
        [](Json& j) { j["meshes"][0]["file"] = "meshes/../../cube.ply"; }},
       {"meshes[0].file", "is absolute", [](Json& j) { j["meshes"][0]["file"] = "/etc/passwd"; }},
@@ -230,9 +251,9 @@ struct FarScene : SmallSceneFolder {
 TEST(FarScene, IsRefusedWhereFloatsAreTooCoarse) {
   FarScene far;
   EXPECT_INPUT_ERROR(read_scene(far.write()), "objects[1].translation: takes 'tall' to where");
-  EXPECT_INPUT_ERROR(read_scene(far.write()), "\"origin\": \"centre\"");
-  far.json()["meshes"][1]["origin"] = "middle";
-  EXPECT_INPUT_ERROR(read_scene(far.write()), "meshes[1].origin: 'middle' is not file or centre");
+  EXPECT_INPUT_ERROR(read_scene(far.write()), "\"place\": \"centre\"");
+  far.json()["meshes"][1]["place"] = "middle";
+  EXPECT_INPUT_ERROR(read_scene(far.write()), "meshes[1].place: 'middle' is not file, centre or ground");
 }
 
 TEST(FarScene, IsBroughtNearByItsTranslation) {
@@ -253,14 +274,14 @@ TEST(FarScene, IsBroughtNearByItsTranslation) {
 
 TEST(FarScene, IsBroughtNearByItsOrigin) {
   FarScene far;
-  far.json()["meshes"][1]["origin"] = "centre";
+  far.json()["meshes"][1]["place"] = "centre";
   far.json()["objects"][1]["translation"] = {10, 20, 30};
   const Scene scene = read_scene(far.write());
   const Box box = world_box(scene, scene.objects[1]);
   EXPECT_LT(glm::distance(box.lo, glm::dvec3(9, 19, 29)), 1e-6);
   EXPECT_LT(glm::distance(box.hi, glm::dvec3(11, 21, 31)), 1e-6);
-  EXPECT_EQ(format_scene(scene, {{"tool", "test"}})["meshes"][1]["origin"], "centre");
-  EXPECT_FALSE(format_scene(scene, {{"tool", "test"}})["meshes"][0].contains("origin"));
+  EXPECT_EQ(format_scene(scene, {{"tool", "test"}})["meshes"][1]["place"], "centre");
+  EXPECT_FALSE(format_scene(scene, {{"tool", "test"}})["meshes"][0].contains("place"));
 }
 
 TEST(Scene, ALinkOutOfTheFolderIsRefused) {

@@ -4,6 +4,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "cells/map.h"
+#include "cells/odd_sizes.h"
 #include "common/provenance.h"
 #include "common/scene_inputs.h"
 #include "common/tool.h"
@@ -59,6 +60,8 @@ int run(Tool& tool, const Options& options) {
                draw_map(scene, cells, options.path_file.empty() ? nullptr : &path));
   }
   write_file(tool.common().output, format_json(format_cells(cells, made_by)));
+  const std::vector<std::string> hints = find_odd_sizes(scene, options.size);
+  for (const std::string& hint : hints) tool.say(hint);
   std::size_t n_inside = 0;
   for (const auto& inside : cells.inside) n_inside += inside.size();
   tool.report({{"columns", cells.grid.columns},
@@ -66,6 +69,7 @@ int run(Tool& tool, const Options& options) {
                {"cells", cells.grid.n_cells()},
                {"size", cells.grid.size},
                {"objects", scene.objects.size()},
+               {"hints", hints},
                {"inside_mean", static_cast<double>(n_inside) / cells.grid.n_cells()}});
   tool.say(std::to_string(cells.grid.columns) + " x " + std::to_string(cells.grid.rows) +
            " cells over " + std::to_string(scene.objects.size()) + " objects");

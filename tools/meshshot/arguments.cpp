@@ -67,10 +67,11 @@ void declare_frame(Command& command, MeshshotArguments& o) {
       .excludes("--like");
   command
       .add_option("--up", &o.up,
-                  "axis that points up: x | y | z | auto (y for OBJ, GLB and glTF, else z; with "
+                  "axis that points up: x | y | z | -x | -y | -z | auto (y for OBJ, GLB and glTF, "
+                  "else z; with "
                   "--like, by that file)")
       .show_default()
-      .check(one_of({"x", "y", "z", "auto"}));
+      .check(one_of({"x", "y", "z", "-x", "-y", "-z", "auto"}));
 }
 
 void declare_look(Command& command, MeshshotArguments& o) {

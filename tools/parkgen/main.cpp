@@ -29,19 +29,24 @@ const ParkPreset& find_preset(const std::string& name) {
 void declare(Tool& tool, Options& options) {
   tool.add_option("--preset", &options.preset, "demo (4m, short walk), 2m, 4m or 8m")
       .show_default();
-  tool.add_option("--models", &options.models_folder,
-                  "folder of real models (models.json, or files named by kind)")
+  tool.add_option(
+          "--models", &options.models_folder,
+          "folder of real models: models.json (docs/formats.md), or files named by kind (--list)")
       .reads("the folder of models that is read", {"*"});
   tool.add_option("--seed", &options.seed, "of all that is random").show_default();
   tool.add_mesh_limit(tool);
-  tool.add_flag("--list", &options.list, "print the kinds of statue and stop");
+  tool.add_flag(
+      "--list", &options.list,
+      "print the kinds of statue (what models.json may name), their triangles, sizes and numbers "
+      "in each park, tab-separated, and stop");
   tool.add_output_folder("folder to write: scene.json, path.json, meshes/",
                          {"scene.json", "path.json", "meshes/*"}, false);
 }
 
-// Kind, triangles, width, depth, height, counts in the 2M, 4M and 8M parks, tab-separated.
+// Tab-separated, a heading first.
 void print_kinds() {
   std::ostringstream out;
+  out << "kind\ttriangles\twidth\tdepth\theight\tin 2m\tin 4m\tin 8m\tfigure\n";
   for (const StatueKind& kind : statue_kinds()) {
     out << kind.name << '\t' << kind.n_triangles;
     for (int axis = 0; axis < 3; ++axis) out << '\t' << kind.size[axis];
