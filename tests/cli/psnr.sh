@@ -100,6 +100,14 @@ for j in 1 2 8; do
   expect 0 "$psnr" A B --json - -j $j
   cmp -s "$log/out" first || fail "-j $j gives another report"
 done
+# Progress on a terminal that can write over a line, and there alone.
+if command -v script >/dev/null; then
+  TERM=xterm script -qec "$psnr A B" /dev/null </dev/null | grep -q "pair 3 of 3" || fail "no progress"
+  for quiet in "TERM=dumb script -qec '$psnr A B' /dev/null" "TERM=xterm script -qec '$psnr A B -q' /dev/null"; do
+    bash -c "$quiet" </dev/null >"$log/out"
+    ! grep -q "pair 3 of 3" "$log/out" || fail "progress by $quiet"
+  done
+fi
 expect 5 "$psnr" A B --fail-below 60
 expect 0 "$psnr" A B --diff D --gain 100
 [ -s D/1.png ] && [ -s D/3.png ] || fail "no difference pictures"

@@ -178,7 +178,7 @@ TEST(Scene, BadScenesAreRefusedWithThePlace) {
       {"meshes[0].scale", "is not within", [](Json& j) { j["meshes"][0]["scale"] = 0; }},
       {"meshes[0].up", "is not x, y or z", [](Json& j) { j["meshes"][0]["up"] = "w"; }},
       {"meshes[0].up", "is not x, y or z", [](Json& j) { j["meshes"][0]["up"] = "-w"; }},
-      {"meshes[0].place", "is not file or ground",
+      {"meshes[0].place", "is not file, centre or ground",
        [](Json& j) { j["meshes"][0]["place"] = "sky"; }},
       {"meshes[0].file", "leaves the file's folder",
        [](Json& j) { j["meshes"][0]["file"] = "meshes/../../cube.ply"; }},

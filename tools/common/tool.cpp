@@ -6,11 +6,15 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <charconv>
+#include <chrono>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <iostream>
+#include <memory>
 #include <new>
 #include <sstream>
+#include <utility>
 
 #include "base/error.h"
 #include "base/file.h"
@@ -56,8 +60,11 @@ class Parser {
       app_.fallthrough();
     }
     fill(app_, tool);
-    for (Command& command : tool.commands_)
-      fill(*app_.add_subcommand(command.name_, command.description_), command);
+    for (Command& command : tool.commands_) {
+      CLI::App& own = *app_.add_subcommand(command.name_, command.description_);
+      fill(own, command);
+      own.footer(format_common_options() + "\nExample:\n  " + example + "\n");
+    }
   }
 
   void parse(int argc, char** argv) {
@@ -85,6 +92,17 @@ class Parser {
   }
 
  private:
+  // The tool's own options, which may stand behind a command, for its --help.
+  std::string format_common_options() {
+    const std::vector<const CLI::Option*> options =
+        std::as_const(app_).get_options([](const CLI::Option* option) {
+          return option->get_name() != "--help" && option->get_name() != "--version";
+        });
+    const auto formatter = std::dynamic_pointer_cast<CLI::Formatter>(app_.get_formatter());
+    VIEWCELL_CHECK(formatter != nullptr);
+    return formatter->make_group("Options of all commands", false, options);
+  }
+
   static CLI::Option* add(CLI::App& app, const Option& option) {
     const auto declare = [&](auto* target) -> CLI::Option* {
       if constexpr (std::is_same_v<decltype(target), bool*>)
@@ -144,6 +162,58 @@ void keep_standard_streams() {
     if (::fcntl(fd, F_GETFD) < 0 && errno == EBADF)
       static_cast<void>(::open("/dev/null", fd == 0 ? O_WRONLY : O_RDONLY));
 }
+
+// "340", "12", "0.21".
+std::string format_rate(double x) {
+  char text[40];
+  std::snprintf(text, sizeof text, x >= 10 ? "%.0f" : "%.2g", x);
+  return text;
+}
+
+// "34 s", "12 min", "3.5 h".
+std::string format_duration(double s) {
+  char text[40];
+  if (s < 100)
+    std::snprintf(text, sizeof text, "%.0f s", s);
+  else if (s < 100 * 60)
+    std::snprintf(text, sizeof text, "%.0f min", s / 60);
+  else
+    std::snprintf(text, sizeof text, "%.1f h", s / 3600);
+  return text;
+}
+
+// A line on a terminal that is written over and over.
+class ProgressLine {
+ public:
+  explicit ProgressLine(const std::string& start) : start_(start), began_(Clock::now()) {}
+
+  void show(std::size_t done, std::size_t total) {
+    const Clock::time_point now = Clock::now();
+    constexpr std::chrono::milliseconds kLeast{100};
+    if (done < total && n_shown_ > 0 && now - shown_ < kLeast) return;
+    shown_ = now, ++n_shown_;
+    const double s = std::chrono::duration<double>(now - began_).count();
+    std::string text = start_ + " " + std::to_string(done) + " of " + std::to_string(total);
+    if (done > 0 && s > 0.5) {
+      const double rate = static_cast<double>(done) / s;
+      text += ", " + format_rate(rate) + "/s";
+      if (done < total)
+        text += ", " + format_duration(static_cast<double>(total - done) / rate) + " left";
+      else
+        text += ", " + format_duration(s);
+    }
+    const std::size_t width = text.size();
+    if (width < width_) text.append(width_ - width, ' ');
+    width_ = width;
+    std::fprintf(stderr, "\r%s%s", text.c_str(), done == total ? "\n" : "");
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  std::string start_;
+  Clock::time_point began_, shown_;
+  std::size_t n_shown_ = 0, width_ = 0;
+};
 
 Check make_check(const CLI::Validator& validator) {
   return {[validator](const std::string& word) { return validator(word); },
@@ -335,11 +405,11 @@ int Tool::main(int argc, char** argv, const std::function<void()>& prepare,
 }
 
 Progress Tool::progress(const std::string& what) const {
-  if (common_.quiet || !isatty(2)) return {};
-  return [what, name = name()](std::size_t done, std::size_t total) {
-    std::fprintf(stderr, "\r%s: %s %zu of %zu%s", name.c_str(), what.c_str(), done, total,
-                 done == total ? "\n" : "");
-  };
+  const char* terminal = std::getenv("TERM");
+  const bool is_dumb = terminal == nullptr || std::string(terminal) == "dumb";
+  if (common_.quiet || is_dumb || isatty(2) == 0) return {};
+  return [line = std::make_shared<ProgressLine>(name() + ": " + what)](
+             std::size_t done, std::size_t total) { line->show(done, total); };
 }
 
 void Tool::say(const std::string& line) const {
