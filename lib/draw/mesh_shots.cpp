@@ -36,18 +36,18 @@ std::string describe(std::size_t i, const Camera& view) {
 }
 
 ImageRgba8 make_sheet(const std::vector<MeshShot>& shots, std::vector<ImageRgba8> tiles,
-                      const std::string& title) {
+                      const MeshShotOptions& options) {
   const std::size_t n = shots.size();
   const auto n_columns = static_cast<std::size_t>(std::ceil(std::sqrt(static_cast<double>(n))));
   std::vector<std::string> columns(n_columns);
-  columns[0] = title;
+  columns[0] = options.title;
   std::vector<SheetRow> rows;
   for (std::size_t i = 0; i < n; ++i) {
     if (i % n_columns == 0) rows.emplace_back();
     rows.back().notes.push_back(describe(i, shots[i].view));
     rows.back().pictures.push_back(std::move(tiles[i]));
   }
-  return make_contact_sheet(columns, rows, {.tile_px = kTile_px});
+  return make_contact_sheet(columns, rows, {.tile_px = kTile_px, .remarks = options.remarks});
 }
 
 Json format_vec3(const glm::dvec3& v) {
@@ -104,7 +104,7 @@ std::vector<MeshShot> write_mesh_shots(const MeshRenderer& renderer, const MeshS
     if (progress) progress(first + pictures.size(), shots.size());
   }
   if (!options.sheet.empty())
-    write_png(options.sheet, make_sheet(shots, std::move(tiles), options.title), PngAlpha::drop);
+    write_png(options.sheet, make_sheet(shots, std::move(tiles), options), PngAlpha::drop);
   return shots;
 }
 

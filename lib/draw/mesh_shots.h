@@ -7,6 +7,7 @@
 
 #include "base/json.h"
 #include "base/parallel.h"
+#include "base/remarks.h"
 #include "draw/mesh_renderer.h"
 
 namespace viewcell {
@@ -17,6 +18,7 @@ struct MeshShotOptions {
   std::filesystem::path sheet;   ///< the contact sheet; empty: none
   std::string title;             ///< on the sheet
   int n_threads = 0;             ///< that encode pictures
+  Remarks* remarks = nullptr;    ///< of the sheet (report/contact_sheet.h)
 };
 
 struct MeshShot {

@@ -9,9 +9,11 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/parallel.h"
+#include "base/srgb.h"
 #include "image/io.h"
 #include "image/metrics.h"
 #include "play/floor_quad.h"
+#include "play/hybrid_renderer.h"
 
 namespace viewcell {
 namespace {
@@ -72,7 +74,7 @@ void save_frame(const SessionOptions& options, Mode mode, std::size_t frame,
   std::snprintf(name, sizeof name, "frame-%05zu.png", frame);
   const std::filesystem::path folder = options.save / mode_name(mode);
   make_folder(folder);
-  write_png(folder / name, picture);
+  write_png(folder / name, picture, options.save_alpha ? PngAlpha::keep : PngAlpha::drop);
 }
 
 // The pictures of one frame: quality and saved files.
@@ -126,6 +128,17 @@ class Comparer {
   const SessionOptions& options_;
   Timeline& timeline_;
 };
+
+// Of the last column. Surfaces there are lit: swatches are of a surface that faces the light.
+std::vector<SheetKey> make_kinds_key() {
+  const auto swatch = [](Representation kind) {
+    const glm::vec3 c = kind_color(kind);
+    return Rgba8{srgb8_from_linear(c.x), srgb8_from_linear(c.y), srgb8_from_linear(c.z), 255};
+  };
+  return {{swatch(Representation::multi_view), "MVMesh, textured from several views"},
+          {swatch(Representation::single_view), "SVMesh, from one view"},
+          {swatch(Representation::inside), "original, inside the cell"}};
+}
 
 // Of each equal part of the path the frame in which the hybrid is farthest from the reference: a
 // sheet shows the worst.
@@ -217,11 +230,13 @@ Session run_session(Player& player, const Bundle& bundle, const CameraPath& path
   });
   if (hybrid == modes.end()) return session;
   std::vector<SheetRow> rows;
+  SheetOptions sheet;
+  sheet.key = make_kinds_key();
   for (const std::size_t i : choose_sheet_frames(*hybrid, options.n_sheet_rows))
     rows.push_back(comparer.make_row(i, cameras[i]));
-  session.contact_sheet = make_contact_sheet({mode_name(options.reference), mode_name(Mode::hybrid),
-                                              "difference x 8", "MVMesh, SVMesh, original"},
-                                             rows);
+  session.contact_sheet = make_contact_sheet(
+      {mode_name(options.reference), mode_name(Mode::hybrid), "difference x 8", "what was drawn"},
+      rows, sheet);
   return session;
 }
 

@@ -89,6 +89,33 @@ ImageRgba8 cut(const ImageRgba8& picture, const PixelBox& box) {
   return out;
 }
 
+// --- the key of colours ---
+
+constexpr int kSwatch = kGlyphHeight * kTextScale;
+
+int key_width(const SheetKey& key) {
+  return kSwatch + kGap / 2 + label_width(key.words, kTextScale) + 2 * kGap;
+}
+
+// Swatches and words from y on, in as many lines as they need; the height that they take. sheet
+// null: only measured.
+int draw_key(const std::vector<SheetKey>& keys, int y, int width, ImageRgba8* sheet,
+             Remarks* remarks) {
+  if (keys.empty()) return 0;
+  int x = kGap, line = 0;
+  for (const SheetKey& key : keys) {
+    if (x > kGap && x + key_width(key) > width) x = kGap, ++line;
+    if (sheet != nullptr) {
+      const int top = y + line * (kLine + kGap / 2);
+      for (int j = 0; j < kSwatch; ++j)
+        for (int i = 0; i < kSwatch; ++i) sheet->at(x + i, top + j) = key.color;
+      draw_label(*sheet, x + kSwatch + kGap / 2, top, key.words, kInk, kTextScale, remarks);
+    }
+    x += key_width(key);
+  }
+  return (line + 1) * (kLine + kGap / 2) + kGap;
+}
+
 }  // namespace
 
 void trim_alike(std::vector<ImageRgba8>& pictures) {
@@ -153,13 +180,17 @@ ImageRgba8 make_contact_sheet(const std::vector<std::string>& columns,
   int width = column_x(columns.size());
   for (std::size_t i = 0; i < columns.size(); ++i)
     width = std::max(width, column_x(i) + label_width(columns[i], kTextScale) + kGap);
-  ImageRgba8 sheet(width, 2 * kGap + kLine + n_rows * row_height, kPaper);
-  for (std::size_t i = 0; i < columns.size(); ++i)
-    draw_label(sheet, column_x(i), kGap, columns[i], kInk, kTextScale);
+  for (const SheetKey& key : options.key) width = std::max(width, kGap + key_width(key));
+  const int key_height = draw_key(options.key, 0, width, nullptr, nullptr);
+  ImageRgba8 sheet(width, 2 * kGap + kLine + n_rows * row_height + key_height, kPaper);
+  const auto write = [&](int x, int y, const std::string& text) {
+    draw_label(sheet, x, y, text, kInk, kTextScale, options.remarks);
+  };
+  for (std::size_t i = 0; i < columns.size(); ++i) write(column_x(i), kGap, columns[i]);
   int y = 2 * kGap + kLine;
   for (const SheetRow& row : rows) {
     VIEWCELL_CHECK(row.pictures.size() <= columns.size(), row.pictures.size(), columns.size());
-    draw_label(sheet, kGap, y, row.label, kInk, kTextScale);
+    write(kGap, y, row.label);
     for (std::size_t i = 0; i < row.pictures.size(); ++i) {
       if (row.pictures[i].empty()) continue;
       const ImageRgba8 picture = shrink_to_width(row.pictures[i], options.tile_px);
@@ -168,10 +199,10 @@ ImageRgba8 make_contact_sheet(const std::vector<std::string>& columns,
       paste(picture, column_x(i), y + label_height, sheet);
     }
     for (std::size_t i = 0; i < std::min(row.notes.size(), columns.size()); ++i)
-      draw_label(sheet, column_x(i), y + label_height + tile.height_px + 2, row.notes[i], kInk,
-                 kTextScale);
+      write(column_x(i), y + label_height + tile.height_px + 2, row.notes[i]);
     y += row_height;
   }
+  draw_key(options.key, y, width, &sheet, options.remarks);
   return sheet;
 }
 

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "base/remarks.h"
 #include "image/image.h"
 
 namespace viewcell {
@@ -14,8 +15,16 @@ struct SheetRow {
   std::vector<std::string> notes;    ///< under each picture, "37.3 dB"; may be fewer
 };
 
+/// What a colour means, for the line below all.
+struct SheetKey {
+  Rgba8 color{};
+  std::string words;
+};
+
 struct SheetOptions {
   int tile_px = 384;  ///< width of a picture on the sheet; larger ones are averaged down
+  std::vector<SheetKey> key = {};
+  Remarks* remarks = nullptr;  ///< letters that show as boxes (report/label.h)
 };
 
 /// Opaque. The same rows give the same bytes.

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "report/font.h"
+
 namespace viewcell {
 namespace {
 
@@ -50,18 +52,112 @@ void fill_square(ImageRgba8& image, int x, int y, int side, const Rgba8& color) 
       image.at(i, j) = color;
 }
 
+// --- UTF-8 ---
+
+constexpr char32_t kNoLetter = '?';
+
+// The letter at `at`, which moves behind it.
+char32_t next_letter(const std::string& text, std::size_t& at) {
+  const auto byte = [&](std::size_t i) {
+    return i < text.size() ? static_cast<unsigned char>(text[i]) : 0U;
+  };
+  const unsigned lead = byte(at);
+  const std::size_t n = lead < 0x80   ? 1
+                        : lead < 0xc2 ? 0
+                        : lead < 0xe0 ? 2
+                        : lead < 0xf0 ? 3
+                        : lead < 0xf5 ? 4
+                                      : 0;
+  char32_t letter = n <= 1 ? lead : lead & (0xffU >> (n + 1));
+  for (std::size_t k = 1; k < n; ++k) {
+    if ((byte(at + k) & 0xc0) != 0x80) {
+      ++at;
+      return kNoLetter;
+    }
+    letter = letter << 6 | (byte(at + k) & 0x3f);
+  }
+  at += n == 0 ? 1 : n;
+  return n == 0 ? kNoLetter : letter;
+}
+
+bool is_within(char32_t letter, char32_t first, char32_t last) {
+  return letter >= first && letter <= last;
+}
+
+// Takes no room: accents, joiners, marks of direction and of variants.
+bool has_no_width(char32_t letter) {
+  return is_within(letter, 0x300, 0x36f) || is_within(letter, 0x200b, 0x200f) ||
+         is_within(letter, 0x202a, 0x202e) || is_within(letter, 0x2060, 0x2064) ||
+         is_within(letter, 0x20d0, 0x20ff) || is_within(letter, 0xfe00, 0xfe0f) || letter == 0xfeff;
+}
+
+bool is_accent(char32_t letter) {
+  return is_within(letter, 0x300, 0x36f);
+}
+
+// --- letters ---
+
+void draw_dot_letter(ImageRgba8& image, int x, int y, char letter, const Rgba8& color, int scale) {
+  const auto& columns =
+      kFont[static_cast<std::size_t>((letter < kFirst || letter > kLast ? '?' : letter) - kFirst)];
+  for (int column = 0; column < 5; ++column)
+    for (int row = 0; row < 7; ++row)
+      if (columns[static_cast<std::size_t>(column)] >> row & 1)
+        fill_square(image, x + column * scale, y + row * scale, scale, color);
+}
+
+void draw_box(ImageRgba8& image, int x, int y, const Rgba8& color, int scale) {
+  for (int column = 0; column < 5; ++column)
+    for (int row = 0; row < 7; ++row)
+      if (column == 0 || column == 4 || row == 0 || row == 6)
+        fill_square(image, x + column * scale, y + row * scale, scale, color);
+}
+
+// The baseline is below the seventh dot.
+void blend_glyph(ImageRgba8& image, int x, int y, const Glyph& glyph, const Rgba8& color,
+                 int scale) {
+  for (int j = 0; j < glyph.height_px; ++j)
+    for (int i = 0; i < glyph.width_px; ++i) {
+      const int at_x = x + glyph.left_px + i, at_y = y + 7 * scale + glyph.top_px + j;
+      if (at_x < 0 || at_y < 0 || at_x >= image.width_px || at_y >= image.height_px) continue;
+      const int share =
+          glyph.coverage[static_cast<std::size_t>(j) * static_cast<std::size_t>(glyph.width_px) +
+                         static_cast<std::size_t>(i)];
+      Rgba8& pixel = image.at(at_x, at_y);
+      for (std::size_t c = 0; c < 4; ++c)
+        pixel[c] =
+            static_cast<std::uint8_t>((pixel[c] * (255 - share) + color[c] * share + 127) / 255);
+    }
+}
+
 }  // namespace
 
+int label_width(const std::string& text, int scale) {
+  int n = 0;
+  for (std::size_t at = 0; at < text.size();) n += !has_no_width(next_letter(text, at));
+  return n * kGlyphWidth * scale;
+}
+
 void draw_label(ImageRgba8& image, int x, int y, const std::string& text, const Rgba8& color,
-                int scale) {
-  for (const char c : text) {
-    const auto& columns =
-        kFont[static_cast<std::size_t>((c < kFirst || c > kLast ? '?' : c) - kFirst)];
-    for (int column = 0; column < 5; ++column)
-      for (int row = 0; row < 7; ++row)
-        if (columns[static_cast<std::size_t>(column)] >> row & 1)
-          fill_square(image, x + column * scale, y + row * scale, scale, color);
-    x += kGlyphWidth * scale;
+                int scale, Remarks* remarks) {
+  const int advance = kGlyphWidth * scale;
+  for (std::size_t at = 0; at < text.size();) {
+    const char32_t letter = next_letter(text, at);
+    Glyph glyph;
+    if (letter < 0x80) {
+      draw_dot_letter(image, x, y, static_cast<char>(letter), color, scale);
+    } else if (has_no_width(letter) && !is_accent(letter)) {
+      continue;
+    } else if (draw_glyph(letter, advance, glyph)) {
+      blend_glyph(image, is_accent(letter) ? x - advance : x, y, glyph, color, scale);
+    } else if (!is_accent(letter)) {
+      draw_box(image, x, y, color, scale);
+      add_remark(remarks, has_font()
+                              ? "letters that DejaVu Sans Mono does not have, drawn as boxes"
+                              : "letters beyond ASCII, drawn as boxes: there is no DejaVu Sans "
+                                "Mono (Debian: fonts-dejavu-core)");
+    }
+    if (!has_no_width(letter)) x += advance;
   }
 }
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cctype>
+#include <cstdio>
 
 #include "cells/small_scene.h"
 
@@ -74,6 +75,41 @@ TEST(DrawMap, ColoursByTheFigure) {
   EXPECT_EQ(count(svg, "#f7fbff"), 11u);
   EXPECT_NE(svg.find("cell 3: 1234"), std::string::npos);
   EXPECT_NE(svg.find("coloured by triangles"), std::string::npos);
+}
+
+// The number behind `key='` in the text from `at` on.
+double attribute(const std::string& svg, std::size_t at, const std::string& key) {
+  return std::stod(svg.substr(svg.find(key + "='", at) + key.size() + 2));
+}
+
+// Whatever the size: each cell has its number, and the words find room within the picture.
+TEST(DrawMap, NumbersAndCaptionFindRoom) {
+  for (const double size : {0.01, 50.0, 4000.0}) {
+    SCOPED_TRACE(size);
+    const Scene scene = make_box_scene({{0, 0}, {0.5 * size, 0.5 * size}}, {});
+    const CellSet cells = make_cells(scene, size, {0, 1});
+    const std::string svg = draw_map(scene, cells, nullptr);
+    EXPECT_EQ(find_xml_fault(svg), "");
+    EXPECT_EQ(count(svg, "<text "), static_cast<std::size_t>(cells.grid.n_cells()) + 1);
+    EXPECT_EQ(count(svg, ">0</text>"), 1u);
+    double x = 0, y = 0, width = 0, height = 0;
+    ASSERT_EQ(std::sscanf(svg.c_str() + svg.find("viewBox='") + 9, "%lf %lf %lf %lf", &x, &y,
+                          &width, &height),
+              4);
+    for (std::size_t at = svg.find("<text "); at != std::string::npos;
+         at = svg.find("<text ", at + 1)) {
+      const std::string words =
+          svg.substr(svg.find('>', at) + 1, svg.find("</text>", at) - svg.find('>', at) - 1);
+      const double letters = attribute(svg, at, "font-size");
+      const bool is_caption = words.find("cells of size") != std::string::npos;
+      const double half = 0.5 * 0.6 * letters * double(words.size());
+      const double left = attribute(svg, at, " x") - (is_caption ? 0 : half);
+      EXPECT_GE(left, x) << words;
+      EXPECT_LE(left + 2 * half, x + width) << words;
+      EXPECT_GE(attribute(svg, at, " y") - letters, y) << words;
+      EXPECT_LE(attribute(svg, at, " y"), y + height) << words;
+    }
+  }
 }
 
 // Names come from scene.json.

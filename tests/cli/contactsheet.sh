@@ -48,6 +48,22 @@ expect 0 "$sheet" $ball $ball -o ball.png
 expect 0 "$sheet" $ball $ball -o few.png --bits 4
 [ "$(stat -c %s few.png)" -lt "$(stat -c %s ball.png)" ] || fail "--bits makes no smaller file"
 
+# A key of colours below; letters beyond ASCII, or boxes and a word where there is no font.
+expect 0 "$sheet" a.png -o plain.png --json plain.json
+expect 0 "$sheet" a.png -o key.png --json key.json --key 00ff00=near --key "0000FF=far=away"
+[ "$(size key.json | cut -d' ' -f2)" -gt "$(size plain.json | cut -d' ' -f2)" ] || fail "no line for the key"
+expect 0 "$sheet" a.png -o de.png --note "Größe"
+expect 0 "$sheet" a.png -o ascii.png --note "Grose"
+differ de.png ascii.png || fail "letters beyond ASCII do not show"
+if [ -e /usr/share/fonts/truetype/dejavu/DejaVuSansMono.ttf ]; then
+  expect 0 "$sheet" a.png -o de.png --note "Größe π é"
+  [ ! -s "$log/err" ] || fail "words: $(cat "$log/err")"
+fi
+expect 0 "$sheet" a.png -o box.png --note "山"
+grep -q "drawn as boxes.* (1)$" "$log/err" || fail "no word of boxes: $(cat "$log/err")"
+fault 2 "--key" "$sheet" a.png -o x.png --key green=near
+fault 2 "--key" "$sheet" a.png -o x.png --key 00ff00=
+
 # Misuse and bad input.
 fault 2 "PICTURE is required" "$sheet" -o x.png
 fault 2 "--output is required" "$sheet" a.png
@@ -63,5 +79,5 @@ fault 1 "turned.png: is not of the size of the first picture, 20 x 15" "$sheet" 
 fault 1 "missing.png" "$sheet" a.png missing.png -o x.png
 fault 1 "ball.off: is not a PNG" "$sheet" ball.off -o x.png
 fault 3 "no/x.png" "$sheet" a.png -o no/x.png
-[ "$n_faults" -eq 14 ] || fail "$n_faults faults typed"
+[ "$n_faults" -eq 16 ] || fail "$n_faults faults typed"
 echo "contactsheet.sh: all well"

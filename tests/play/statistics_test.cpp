@@ -2,12 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
 #include "base/error.h"
 #include "base/random.h"
 #include "report/contact_sheet.h"
+#include "report/font.h"
 #include "report/label.h"
 
 namespace viewcell {
@@ -194,6 +196,63 @@ TEST(Label, DrawsDotsAndCutsAtTheEdge) {
   EXPECT_NE(image.at(0, 0), white);
   EXPECT_NO_THROW(draw_label(image, -3, -3, "clipped \xff\n", white, 3));
   EXPECT_EQ(label_width("abc", 2), 36);
+}
+
+std::size_t count_ink(const ImageRgba8& image) {
+  return static_cast<std::size_t>(std::count_if(image.pixels.begin(), image.pixels.end(),
+                                                [](const Rgba8& p) { return p[0] > 60; }));
+}
+
+// Letters count, not bytes; accents that follow their letters take no room; bytes that are no UTF-8
+// and letters without a font show all the same.
+TEST(Label, LettersBeyondAscii) {
+  const std::string composed = "\u00e9", decomposed = "e\u0301";
+  EXPECT_EQ(label_width("Gr\u00f6\u00dfe"), 5 * kGlyphWidth);
+  EXPECT_EQ(label_width(composed), kGlyphWidth);
+  EXPECT_EQ(label_width(decomposed), kGlyphWidth);
+  EXPECT_EQ(label_width("\ufeffa\u200d"), kGlyphWidth);
+  EXPECT_EQ(label_width("\xff\xc3"), 2 * kGlyphWidth);
+  EXPECT_EQ(label_width("\U0001f600"), kGlyphWidth);
+  const auto ink = [](const std::string& text, Remarks* remarks = nullptr) {
+    ImageRgba8 image(60, 40, {0, 0, 0, 255});
+    draw_label(image, 4, 8, text, {255, 255, 255, 255}, 2, remarks);
+    return count_ink(image);
+  };
+  for (const std::string& text : {composed, decomposed, std::string("\u03c0"), std::string("\xff"),
+                                  std::string("\u0416"), std::string("\U0001f600")}) {
+    SCOPED_TRACE(text);
+    EXPECT_GT(ink(text), 20u);
+  }
+  EXPECT_EQ(ink("\xff"), ink("?"));
+  Remarks remarks;
+  EXPECT_EQ(ink("\u5c71\u5c71", &remarks),
+            2 * 20u * 4);  // boxes of 5 x 7 dots, in DejaVu or without
+  ASSERT_EQ(remarks.size(), 1u);
+  EXPECT_EQ(remarks[0].count, 2u);
+  if (!has_font()) return;
+  remarks.clear();
+  EXPECT_GT(ink(composed, &remarks), ink("e") / 2);
+  EXPECT_GT(ink(decomposed), ink("e"));
+  EXPECT_TRUE(remarks.empty());
+}
+
+TEST(ContactSheet, TheKeyStandsBelowAll) {
+  const Rgba8 red{200, 0, 0, 255}, blue{0, 0, 200, 255};
+  const std::vector<SheetRow> rows{{"", {ImageRgba8(20, 10)}, {}}};
+  const ImageRgba8 bare = make_contact_sheet({""}, rows, {20});
+  SheetOptions options{.tile_px = 20, .key = {{red, "near"}, {blue, "far"}}};
+  const ImageRgba8 sheet = make_contact_sheet({""}, rows, options);
+  ASSERT_GT(sheet.height_px, bare.height_px + 2 * 16);  // the sheet is narrow: two lines
+  std::size_t n_red = 0, n_blue = 0;
+  for (int y = 0; y < sheet.height_px; ++y)
+    for (int x = 0; x < sheet.width_px; ++x) {
+      n_red += sheet.at(x, y) == red, n_blue += sheet.at(x, y) == blue;
+      if (sheet.at(x, y) == red) {
+        EXPECT_GE(y, bare.height_px - 8);
+      }
+    }
+  EXPECT_EQ(n_red, 256u);
+  EXPECT_EQ(n_blue, 256u);
 }
 
 TEST(ContactSheet, ShrinkingKeepsTheMean) {

@@ -1,5 +1,6 @@
 // contactsheet: pictures side by side on one.
 #include <algorithm>
+#include <cstdio>
 
 #include "base/error.h"
 #include "common/picture_input.h"
@@ -10,7 +11,7 @@ namespace viewcell {
 namespace {
 
 struct Arguments {
-  std::vector<std::string> pictures, notes;
+  std::vector<std::string> pictures, notes, keys;
   std::string title;
   std::size_t n_columns = 4;
   bool trim = false;
@@ -28,6 +29,9 @@ void declare(Tool& tool, Arguments& arguments) {
                   "words under a picture; once for each, in the same order; may be fewer")
       .one_each();
   tool.add_option("--title", &arguments.title, "a line above all");
+  tool.add_option("--key", &arguments.keys,
+                  "RRGGBB=WORDS: what a colour means, below all; once for each colour")
+      .one_each();
   tool.add_option("--columns", &arguments.n_columns, "pictures in a row")
       .show_default()
       .check(in_range(1, 64));
@@ -73,15 +77,27 @@ std::vector<ImageRgba8> read_pictures(const Tool& tool, const Arguments& argumen
   return pictures;
 }
 
+SheetKey parse_key(const std::string& text) {
+  unsigned r = 0, g = 0, b = 0;
+  int n = 0;
+  const bool is_color = text.find_first_not_of("0123456789abcdefABCDEF") == 6 && text[6] == '=' &&
+                        std::sscanf(text.c_str(), "%2x%2x%2x%n", &r, &g, &b, &n) == 3 && n == 6;
+  if (!is_color || text.size() == 7)
+    throw UsageError("--key: '" + text + "' is not RRGGBB=WORDS, with hexadecimal digits");
+  const auto byte = [](unsigned x) { return static_cast<std::uint8_t>(x); };
+  return {{byte(r), byte(g), byte(b), 255}, text.substr(7)};
+}
+
 // What the command line alone shows to be wrong.
-void check_arguments(const Tool& tool, const Arguments& arguments) {
+void check_arguments(const Tool& tool, Arguments& arguments) {
+  for (const std::string& key : arguments.keys) arguments.sheet.key.push_back(parse_key(key));
   if (arguments.notes.size() > arguments.pictures.size())
     throw UsageError("more --note than pictures");
   if (tool.common().output == "-") throw UsageError("-o names a file");
   check_ending({"-o", tool.common().output}, {".png"}, "a PNG");
 }
 
-int run(const Tool& tool, const Arguments& arguments) {
+int run(const Tool& tool, Arguments& arguments) {
   std::vector<ImageRgba8> pictures = read_pictures(tool, arguments);
   if (arguments.trim) trim_alike(pictures);
   const std::size_t n_columns = std::min(arguments.n_columns, pictures.size());
@@ -94,7 +110,10 @@ int run(const Tool& tool, const Arguments& arguments) {
     rows.back().pictures.push_back(std::move(pictures[i]));
     rows.back().notes.push_back(i < arguments.notes.size() ? arguments.notes[i] : "");
   }
+  Remarks remarks;
+  arguments.sheet.remarks = &remarks;
   ImageRgba8 sheet = make_contact_sheet(columns, rows, arguments.sheet);
+  tool.remark(tool.common().output, remarks);
   round_channels(sheet, arguments.n_bits);
   write_png(tool.common().output, sheet, PngAlpha::drop);
   tool.report({{"pictures", arguments.pictures.size()},
@@ -111,7 +130,8 @@ int main(int argc, char** argv) {
   viewcell::Tool tool("contactsheet",
                       "Lays pictures of one size side by side, with words under each.",
                       "contactsheet a/view-00.png b/view-00.png --note original "
-                      "--note '500 faces' --trim -o sheet.png");
+                      "--note '500 faces' --trim -o sheet.png\n"
+                      "  contactsheet far.png --key 00ff00=near --key 0000ff=far -o sheet.png");
   viewcell::Arguments arguments;
   viewcell::declare(tool, arguments);
   return tool.main(

@@ -82,8 +82,11 @@ int run(const Tool& tool, MeshshotArguments& o) {
   const double upload_s = watch.lap_s();
   o.shots.title = fs::path(o.mesh_file).filename().string() + ", " +
                   std::to_string(mesh.triangles.size()) + " triangles";
+  Remarks remarks;
+  o.shots.remarks = &remarks;
   const std::vector<MeshShot> shots = write_mesh_shots(renderer, o.shots, tool.progress("views"));
   const double views_s = watch.lap_s();
+  tool.remark(o.shots.sheet, remarks);
 
   const double reach = measure_reach(mesh, frame);
   MeshFrame in_file = frame;

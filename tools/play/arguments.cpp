@@ -68,6 +68,10 @@ void declare_arguments(Tool& tool, PlayArguments& o) {
   tool.add_option("--size", &o.size, "WIDTHxHEIGHT in px").show_default();
   tool.add_option("--save", &o.session.save, "folder to write frames to, as PNG")
       .writes({"*/frame-*.png"});
+  tool.add_flag("--save-alpha", &o.session.save_alpha,
+                "saved frames keep in their alpha where objects are, which psnr's covered figures "
+                "go by; viewers then show ground and sky as transparent")
+      .needs("--save");
   tool.add_option("--every", &o.session.save_every, "save every K-th frame")
       .show_default()
       .needs("--save")
