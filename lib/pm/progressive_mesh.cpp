@@ -19,11 +19,6 @@ UsedVertices take_all_vertices(std::size_t n) {
 
 }  // namespace
 
-void shift_texcoords(ProgressiveRecord& record, const glm::vec2& by) {
-  for (glm::vec2& uv : record.texcoords) uv += by;
-  for (glm::vec2& uv : record.parent_texcoords) uv += by;
-}
-
 ProgressiveMesh::ProgressiveMesh(ProgressiveRecord record)
     : record_(std::move(record)), is_alive_(record_.faces.size(), true) {
   for (const std::uint32_t face : record_.born) is_alive_[face] = false;
@@ -284,6 +279,19 @@ ProgressiveMesh make_finest(const ProgressiveRecord& record) {
   ProgressiveMesh mesh(record);
   mesh.set_level(mesh.n_splits());
   return mesh;
+}
+
+// All wedges are drawn by some face of the input; a coarser level has no others.
+void move_texcoords(ProgressiveRecord& record, std::span<const glm::vec2> by) {
+  const ProgressiveMesh finest = make_finest(record);
+  VIEWCELL_CHECK(by.size() == finest.record().faces.size(), by.size());
+  std::vector<glm::vec2> of_wedges(record.texcoords.size(), glm::vec2(0));
+  for (std::size_t f = 0; f < by.size(); ++f)
+    for (const std::uint32_t wedge : finest.record().faces[f])
+      if (by[f] != glm::vec2(0)) of_wedges[wedge] = by[f];
+  for (std::size_t w = 0; w < of_wedges.size(); ++w) record.texcoords[w] += of_wedges[w];
+  for (std::size_t i = 0; i < record.parent_texcoords.size(); ++i)
+    record.parent_texcoords[i] += of_wedges[record.pairs[i].parent];
 }
 
 std::string check_record(const ProgressiveRecord& record) {

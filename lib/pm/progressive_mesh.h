@@ -52,9 +52,6 @@ struct ProgressiveRecord {
   bool is_full_edge() const { return !parent_positions.empty(); }
 };
 
-/// Adds to all texture coordinates.
-void shift_texcoords(ProgressiveRecord& record, const glm::vec2& by);
-
 /// A progressive mesh at some level; refining and coarsening take time in proportion to the faces
 /// that come and go.
 class ProgressiveMesh {
@@ -105,6 +102,10 @@ class ProgressiveMesh {
 
 /// A progressive mesh at the input, with all splits made.
 ProgressiveMesh make_finest(const ProgressiveRecord& record);
+
+/// Moves texture coordinates at all levels by what is given for each face of the input. Faces that
+/// share texture coordinates at a vertex must be moved alike; (0, 0) says nothing.
+void move_texcoords(ProgressiveRecord& record, std::span<const glm::vec2> by);
 
 /// Whether every number of the record is in range and the splits can be made one after another.
 /// Returns what is wrong, or an empty string. Time and memory in proportion to the record.

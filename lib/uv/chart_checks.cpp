@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <functional>
 #include <span>
 
 #include "base/buckets.h"
@@ -11,6 +12,7 @@
 #include "image/owner_map.h"
 #include "uv/chart_map.h"
 #include "uv/triangle_map.h"
+#include "uv/uv_rounding.h"
 #include "uv/uv_stretch.h"
 
 namespace viewcell {
@@ -18,12 +20,6 @@ namespace {
 
 // Area, in texels, that is rounding of coordinates: no chart and no turn of a triangle.
 constexpr double kNoArea = 1e-4;
-
-// Coordinates of files with five digits; less than a hundredth of a texel in 1024.
-constexpr double kRounding = 1e-5;
-
-// How far a chart may reach out of the picture and be taken for careless, over the picture.
-constexpr double kOvershoot = 0.1;
 
 // Where one chart lies over another, or over itself: texels and the other chart.
 struct Shared {
@@ -49,8 +45,8 @@ void count(std::size_t& n, std::uint32_t& first, std::uint32_t number) {
 
 // ---- Coordinates -------------------------------------------------------------------------------
 
-bool is_outside(const glm::dvec2& uv, double by) {
-  return std::min(uv.x, uv.y) < -by || std::max(uv.x, uv.y) > 1 + by;
+bool is_outside(const glm::dvec2& uv) {
+  return std::min(uv.x, uv.y) < -kUvRounding || std::max(uv.x, uv.y) > 1 + kUvRounding;
 }
 
 void check_coordinates(const TriMesh& mesh, ChartFindings& out) {
@@ -63,7 +59,7 @@ void check_coordinates(const TriMesh& mesh, ChartFindings& out) {
         is_finite = false;
         continue;
       }
-      out.n_outside += is_outside(uv, kRounding);
+      out.n_outside += is_outside(uv);
       out.uv_lo = is_first ? uv : glm::min(out.uv_lo, uv);
       out.uv_hi = is_first ? uv : glm::max(out.uv_hi, uv);
       is_first = false;
@@ -72,26 +68,21 @@ void check_coordinates(const TriMesh& mesh, ChartFindings& out) {
   }
 }
 
-// The lower left corner of the one tile that holds all coordinates; 0 where none does.
-glm::ivec2 find_tile(const ChartFindings& f) {
-  constexpr double kMost = 1e6;  // beyond it single precision has no texels
-  const glm::dvec2 tile = glm::floor(f.uv_lo + kRounding);
-  const glm::dvec2 past = f.uv_hi - tile - 1.0;
-  if (std::max(past.x, past.y) > kRounding || glm::length(tile) > kMost) return glm::ivec2(0);
-  return glm::ivec2(tile);
-}
-
-bool is_repeating(const TriMesh& mesh, std::span<const std::uint32_t> triangles) {
-  glm::dvec2 lo(1e300), hi(-1e300);
+UvRange range_of(const TriMesh& mesh, std::span<const std::uint32_t> triangles) {
+  UvRange out{glm::dvec2(1e300), glm::dvec2(-1e300)};
   for (const std::uint32_t t : triangles)
     for (std::size_t k = 0; k < 3; ++k) {
       const glm::dvec2 uv(mesh.texcoords[3 * std::size_t{t} + k]);
-      lo = glm::min(lo, uv), hi = glm::max(hi, uv);
+      out.lo = glm::min(out.lo, uv), out.hi = glm::max(out.hi, uv);
     }
-  const glm::dvec2 size = hi - lo;
-  return std::max(size.x, size.y) > 1 + 2 * kRounding || is_outside(lo, kOvershoot) ||
-         is_outside(hi, kOvershoot) || std::min(hi.x, hi.y) < -kRounding ||
-         std::max(lo.x, lo.y) > 1 + kRounding;
+  return out;
+}
+
+// The tile of all charts, if they have one.
+glm::ivec2 common_tile(const std::vector<glm::ivec2>& tiles) {
+  const bool is_one =
+      std::adjacent_find(tiles.begin(), tiles.end(), std::not_equal_to<>()) == tiles.end();
+  return tiles.empty() || !is_one ? glm::ivec2(0) : tiles[0];
 }
 
 // ---- Area and turn -----------------------------------------------------------------------------
@@ -205,11 +196,13 @@ ChartFindings check_charts(const TriMesh& input, int width_px, int height_px) {
   ChartFindings out;
   out.width_px = width_px, out.height_px = height_px;
   check_coordinates(input, out);
-  out.tile = find_tile(out);
+  out.tiles = find_chart_tiles(input);
+  out.tile = common_tile(out.tiles);
   TriMesh moved;
-  if (out.tile != glm::ivec2(0)) {
+  if (!out.tiles.empty()) {
     moved = input;
-    for (glm::vec2& uv : moved.texcoords) uv -= glm::vec2(out.tile);
+    for (std::size_t c = 0; c < moved.texcoords.size(); ++c)
+      moved.texcoords[c] -= glm::vec2(out.tiles[c / 3]);
   }
   const TriMesh& mesh = moved.triangles.empty() ? input : moved;
   const Charts charts = find_charts(mesh);
@@ -219,8 +212,12 @@ ChartFindings check_charts(const TriMesh& input, int width_px, int height_px) {
   Drawing drawing{mesh, owner, Image<std::uint32_t>(width_px, height_px), {}};
   for (std::uint32_t c = 0; c < charts.size(); ++c) {
     const std::span<const std::uint32_t> triangles = members.of(c);
-    const bool repeats = is_repeating(mesh, triangles);
+    const UvRange range = range_of(mesh, triangles);
+    const bool repeats = is_repeating(range);
+    if (repeats && out.n_repeating == 0) out.repeating = range;  // charts ascend
     if (repeats) count(out.n_repeating, out.first_repeating, charts.first[c]);
+    if (!out.tiles.empty() && out.tiles[charts.first[c]] != glm::ivec2(0))
+      count(out.n_elsewhere, out.first_elsewhere, charts.first[c]);
     drawing.draw(triangles, c);
     check_areas(mesh, triangles, drawing.has_texels, !repeats, out);
     add_overlaps(drawing.shared, c, out);
@@ -241,10 +238,10 @@ std::string triangle(std::uint32_t number) {
 }
 
 // "u -0.05 to 1, v 0 to 1"
-std::string range(const ChartFindings& f) {
+std::string format_range(const UvRange& range) {
   char text[128];
-  std::snprintf(text, sizeof text, "u %.4g to %.4g, v %.4g to %.4g", f.uv_lo.x, f.uv_hi.x,
-                f.uv_lo.y, f.uv_hi.y);
+  std::snprintf(text, sizeof text, "u %.4g to %.4g, v %.4g to %.4g", range.lo.x, range.hi.x,
+                range.lo.y, range.hi.y);
   return text;
 }
 
@@ -253,16 +250,29 @@ std::string describe_not_finite(const ChartFindings& f) {
          " texture coordinates that are no numbers, the first is " + triangle(f.first_not_finite);
 }
 
-std::string describe_outside(const ChartFindings& f) {
+std::string describe_repeating(const ChartFindings& f) {
+  return number_of(f.n_repeating, "chart wants", "charts want") +
+         " a picture that repeats, the first at " + triangle(f.first_repeating) + " (" +
+         format_range(f.repeating) +
+         "): its texels show several places; give each place one of its own in [0, 1]";
+}
+
+std::string describe_elsewhere(const ChartFindings& f) {
   if (f.tile != glm::ivec2(0))
-    return "the whole mesh lies in another tile of the picture (" + range(f) + "): subtract " +
-           std::to_string(f.tile.x) + " from u and " + std::to_string(f.tile.y) + " from v";
-  if (f.n_repeating > 0)
-    return number_of(f.n_repeating, "chart wants", "charts want") +
-           " a picture that repeats, the first at " + triangle(f.first_repeating) + " (" +
-           range(f) + "): its texels show several places; give each place one of its own in [0, 1]";
+    return "the whole mesh lies in another tile of the picture (" +
+           format_range({f.uv_lo, f.uv_hi}) + "): subtract " + std::to_string(f.tile.x) +
+           " from u and " + std::to_string(f.tile.y) + " from v";
+  const glm::ivec2 tile = f.tiles[f.first_elsewhere];
+  return number_of(f.n_elsewhere, "chart lies in another tile", "charts lie in other tiles") +
+         " of the picture, the first at " + triangle(f.first_elsewhere) + " in " +
+         std::to_string(tile.x) + ", " + std::to_string(tile.y) +
+         ": move each by whole tiles into [0, 1]";
+}
+
+std::string describe_outside(const ChartFindings& f) {
+  if (f.n_elsewhere > 0) return describe_elsewhere(f);
   return number_of(f.n_outside, "corner lies", "corners lie") + " a little outside the picture (" +
-         range(f) + "): move or shrink the charts into [0, 1]";
+         format_range({f.uv_lo, f.uv_hi}) + "): move or shrink the charts into [0, 1]";
 }
 
 std::string describe_overlaps(const ChartFindings& f) {
@@ -292,7 +302,8 @@ std::string describe_overlaps(const ChartFindings& f) {
 
 std::string find_obstacle(const ChartFindings& f, bool allows_overlap) {
   if (f.n_not_finite > 0) return describe_not_finite(f);
-  if (f.tile != glm::ivec2(0) || f.n_repeating > 0) return describe_outside(f);
+  if (f.n_repeating > 0) return describe_repeating(f);
+  if (f.n_elsewhere > 0) return describe_elsewhere(f);
   ChartFindings several = f;  // a chart that folds over itself shows the same either way
   std::erase_if(several.overlaps, [](const ChartOverlap& o) { return o.first == o.second; });
   return several.overlaps.empty() || allows_overlap ? "" : describe_overlaps(several);
@@ -304,7 +315,8 @@ std::string describe(const ChartFindings& f) {
     if (is_found) out += "\n" + line();
   };
   add(f.n_not_finite > 0, [&] { return describe_not_finite(f); });
-  add(f.n_repeating + f.n_outside > 0, [&] { return describe_outside(f); });
+  add(f.n_repeating > 0, [&] { return describe_repeating(f); });
+  add(f.n_repeating == 0 && f.n_outside > 0, [&] { return describe_outside(f); });
   add(!f.overlaps.empty(), [&] { return describe_overlaps(f); });
   add(f.n_turned > 0, [&] {
     return number_of(f.n_turned, "triangle lies", "triangles lie") +

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "mesh/mesh.h"
+#include "uv/chart_tiles.h"
 
 namespace viewcell {
 
@@ -30,9 +31,13 @@ struct ChartFindings {
   std::uint32_t first_turned = 0;
   std::size_t n_outside = 0;      ///< corners outside [0, 1]
   glm::dvec2 uv_lo{0}, uv_hi{0};  ///< range of all finite texture coordinates
-  glm::ivec2 tile{0};             ///< where all lie in one other tile: lower left corner of that
-  std::size_t n_repeating = 0;    ///< charts that want a picture that repeats
+  std::vector<glm::ivec2> tiles;  ///< find_chart_tiles(), of triangles
+  glm::ivec2 tile{0};             ///< of all triangles, where they lie in one other
+  std::size_t n_elsewhere = 0;    ///< charts in other tiles
+  std::uint32_t first_elsewhere = 0;
+  std::size_t n_repeating = 0;  ///< charts that want a picture that repeats
   std::uint32_t first_repeating = 0;
+  UvRange repeating;  ///< of the first of them, in the first tile where it can be moved there
   std::vector<ChartOverlap> overlaps;  ///< by the number of texels, most first
   std::size_t n_overlapped = 0;        ///< charts in them
   std::size_t n_across_materials = 0;  ///< overlaps of charts whose first triangles differ in it
@@ -42,15 +47,15 @@ struct ChartFindings {
   /// Whether each texel stands for one point of the surface at most. Corners that lie a little
   /// outside (n_outside) do not matter, but what lies there has no texels.
   bool is_one_to_one() const {
-    return n_not_finite == 0 && tile == glm::ivec2(0) && n_repeating == 0 && overlaps.empty();
+    return n_not_finite == 0 && n_elsewhere == 0 && n_repeating == 0 && overlaps.empty();
   }
 };
 
 /// mesh must have texture coordinates (NaN is allowed). An overlap counts when it holds a square of
 /// 2 x 2 texel centres: none that is narrower than a texel does. A chart repeats when it is wider
-/// than the picture, lies beside it, or reaches more than a tenth out of it. Where all coordinates
-/// lie in one other tile, all but uv_lo and uv_hi is found as if they were moved back. One thread;
-/// O(triangles log triangles + texels covered).
+/// than the picture, lies beside it, or reaches more than a tenth out of it, and no whole tiles
+/// move it there. Where charts lie in other tiles, all but uv_lo and uv_hi is found as if they were
+/// moved back. One thread; O(triangles log triangles + texels covered).
 ChartFindings check_charts(const TriMesh& mesh, int width_px, int height_px);
 
 /// A line that says why no texture can follow a mesh with these charts, or nothing: coordinates

@@ -45,7 +45,7 @@ std::vector<Corner> list_corners(const TriMesh& mesh) {
 
 }  // namespace
 
-Charts find_charts(const TriMesh& mesh) {
+Charts find_charts(const TriMesh& mesh, ChartLink link) {
   VIEWCELL_CHECK(mesh.texcoords.size() == 3 * mesh.triangles.size(), mesh.texcoords.size());
   std::vector<Corner> corners = list_corners(mesh);
   std::sort(corners.begin(), corners.end(), [](const Corner& a, const Corner& b) {
@@ -58,7 +58,7 @@ Charts find_charts(const TriMesh& mesh) {
     n += i == 0 || corners[i].texture_vertex() != corners[i - 1].texture_vertex();
     texture_vertices[corners[i].number / 3][corners[i].number % 3] = n - 1;
   }
-  return connect_charts(texture_vertices, n, ChartLink::edge);
+  return connect_charts(texture_vertices, n, link);
 }
 
 Image<std::uint32_t> make_chart_map(const TriMesh& mesh, const Charts& charts, int width_px,

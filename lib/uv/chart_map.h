@@ -9,10 +9,10 @@
 
 namespace viewcell {
 
-/// By edges (mesh/charts.h); vertices at one position count as one. In no chart: triangles of which
+/// Vertices at one position count as one. In no chart: triangles of which
 /// two corners stand at one position or a texture coordinate is not finite. mesh must have texture
 /// coordinates. O(n log n).
-Charts find_charts(const TriMesh& mesh);
+Charts find_charts(const TriMesh& mesh, ChartLink link = ChartLink::edge);
 
 /// Per texel 1 + the chart that a triangle of which its centre lies in, 0 where there is none. Of
 /// several charts the lowest. Parts of charts outside [0, 1] own nothing.

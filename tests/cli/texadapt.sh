@@ -114,6 +114,19 @@ expect 0 "$texadapt" wide.pm patch.png --faces 200 -o wide.png
 grep -q -- '-10 is added to u' "$log/err" || fail "a mesh in another tile moves without a word"
 "$bin/psnr" adapted.png wide.png --fail-below 40 -q -o /dev/null || fail "another picture from another tile"
 rm wide.png
+# Two patches side by side, the second in another tile of the picture: what the first shows is as it
+# was alone, and the second one's chart is moved; both are over the same texels then.
+awk '/^vt/ { n++ } /^v / { m++ } { print }
+  /^v / { v[m] = "v " $2 + 9 " " $3 " " $4 } /^vt/ { t[n] = "vt " $2 + 2 " " $3 } /^f/ { f[++k] = $0 }
+  END { for (i = 1; i <= m; i++) print v[i]; for (i = 1; i <= n; i++) print t[i]
+    for (i = 1; i <= k; i++) { c = split(f[i], w, " "); s = "f"
+      for (j = 2; j <= c; j++) { split(w[j], p, "/"); s = s " " p[1] + m "/" p[2] + n } print s } }' patch.obj |
+  grep -v '^vn\|^usemtl\|^mtllib' | sed '/^f/s#\([0-9]*/[0-9]*\)/[0-9]*#\1#g' >tiles.obj
+expect 0 "$bin/pmesh" build tiles.obj --metric mapping -o tiles.pm
+fault 1 "lie over one another" "$texadapt" tiles.pm patch.png --faces 400 -o x.png
+expect 0 "$texadapt" tiles.pm patch.png --faces 400 --allow-overlap -o tiles.png --mesh tiles.ply
+grep -q '1 of 2 charts lie in other tiles' "$log/err" || fail "charts in other tiles move without a word"
+rm tiles.png
 sed 's/^vt 0\.\([5-9]\)/vt 3.\1/' patch.obj >wide.obj
 expect 0 "$bin/pmesh" build wide.obj -o wide.pm
 fault 1 "a picture that repeats" "$texadapt" wide.pm patch.png --faces 60 -o x.png
@@ -168,5 +181,5 @@ fault 1 "gone.png" "$texadapt" patch.pm patch.png --normal-map gone.png=y.png --
 head -c 500 patch.pm >cut.pm
 fault 1 "cut.pm" "$texadapt" cut.pm patch.png --faces 60 -o x.png
 [ ! -e x.png ] && [ ! -e x.exr ] && [ ! -e x.glb ] && [ ! -e y.png ] || fail "a fault has left a file"
-[ "$n_faults" -eq 29 ] || fail "$n_faults faults were tried"
+[ "$n_faults" -eq 30 ] || fail "$n_faults faults were tried"
 echo "texadapt.sh: $n_faults faults"

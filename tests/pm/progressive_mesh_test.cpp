@@ -102,6 +102,30 @@ TEST(ProgressiveMesh, RefineThenCoarsenIsTheIdentity) {
   }
 }
 
+// At every level the faces of one chart are where they were, those of the other are moved.
+TEST(ProgressiveMesh, ChartsMoveAtAllLevels) {
+  const TriMesh mesh = make_textured_sphere(3);
+  for (const Placement placement : {Placement::half, Placement::full}) {
+    const ProgressiveRecord record =
+        build_progressive_mesh(mesh, {.metric = MetricKind::qem3, .placement = placement}).record;
+    ProgressiveRecord moved = record;
+    std::vector<glm::vec2> by;
+    for (const std::int32_t material : mesh.materials) by.emplace_back(material ? 2 : 0, 0);
+    move_texcoords(moved, by);
+    ProgressiveMesh before(record), after(moved);
+    for (const std::size_t level : {before.n_splits(), before.n_splits() / 2, std::size_t{0}}) {
+      before.set_level(level), after.set_level(level);
+      const TriMesh a = before.extract(), b = after.extract();
+      ASSERT_EQ(a.triangles, b.triangles);
+      for (std::size_t c = 0; c < a.texcoords.size(); ++c) {
+        const float u = a.texcoords[c].x + (a.materials[c / 3] ? 2.0f : 0.0f);
+        ASSERT_NEAR(b.texcoords[c].x, u, 1e-6) << c;
+        ASSERT_EQ(b.texcoords[c].y, a.texcoords[c].y);
+      }
+    }
+  }
+}
+
 TEST(ProgressiveMesh, EveryLevelIsAClosedManifoldOfGenusNought) {
   for (const Way& way : kWays) {
     const bool is_textured = texture_needs(options_of(way)).no_folds;

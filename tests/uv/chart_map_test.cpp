@@ -246,13 +246,11 @@ TEST(ChartChecks, TellsOvershootFromRepeat) {
   EXPECT_FLOAT_EQ(static_cast<float>(over.uv_lo.x), -0.05f);
   EXPECT_NE(lines(over)[1].find("a little outside the picture (u -0.05 to 0.9, v 0 to 0.9)"),
             std::string::npos);
-  for (const Square& s :
-       {Square{{0, 0}, {1.05f, 0.5f}},  // wider than the picture
-        Square{{-0.2f, 0}, half},       // far out
-        Square{{0, 0.65f}, half},       // far out above
-        Square{{3.2f, 0}, half},        // in another tile
-        Square{{0, -0.04f}, {0.03f, 0.03f}}, Square{{1.01f, 0}, {0.03f, 0.03f}}})  // beside
-  {
+  for (const Square& s : {Square{{0, 0}, {1.05f, 0.5f}},  // wider than the picture
+                          Square{{-0.2f, 0}, half},       // far out
+                          Square{{0, 0.65f}, half},       // far out above
+                          Square{{3.7f, 0}, half},        // in two other tiles
+                          Square{{-7, 0.3f}, {0.5f, 1.2f}}}) {
     const ChartFindings f = check(s);
     EXPECT_EQ(f.n_repeating, 1u) << s.at.x;
     EXPECT_EQ(f.first_repeating, 2u);
@@ -260,6 +258,50 @@ TEST(ChartChecks, TellsOvershootFromRepeat) {
     EXPECT_FALSE(f.is_one_to_one());
   }
   EXPECT_EQ(check({{0, 0}, {1, 0.5f}}).n_outside, 0u);
+}
+
+// Each chart alone: in which tile, and that it may be moved there. A tenth may reach out of it.
+TEST(ChartChecks, ChartsInOtherTiles) {
+  const Square first{{0.6f, 0.6f}, {0.3f, 0.3f}};
+  const auto tile = [&](const Square& s) {
+    const ChartFindings f = check_charts(make_squares({first, s}), 64, 64);
+    EXPECT_EQ(f.n_repeating, 0u);
+    EXPECT_EQ(f.n_elsewhere, f.tiles.empty() ? 0u : 1u);
+    EXPECT_EQ(f.is_one_to_one(), f.tiles.empty());
+    EXPECT_EQ(f.tile, glm::ivec2(0));
+    return f.tiles.empty() ? glm::ivec2(0) : f.tiles[2];
+  };
+  const glm::vec2 half(0.5f);
+  EXPECT_EQ(tile({{3.2f, 0}, half}), glm::ivec2(3, 0));
+  EXPECT_EQ(tile({{-2, -1}, half}), glm::ivec2(-2, -1));
+  EXPECT_EQ(tile({{-2, 5}, {0.5f, 1}}), glm::ivec2(-2, 5));  // from side to side
+  EXPECT_EQ(tile({{0, -0.04f}, {0.03f, 0.03f}}), glm::ivec2(0, -1));
+  EXPECT_EQ(tile({{1.01f, 0}, {0.03f, 0.03f}}), glm::ivec2(1, 0));
+  EXPECT_EQ(tile({{2.95f, 0}, half}), glm::ivec2(3, 0));  // out of it by 0.05
+  EXPECT_EQ(tile({{0.55f, 0}, half}), glm::ivec2(0));
+  EXPECT_EQ(tile({{0, 0}, half}), glm::ivec2(0));
+  // What lies on the same texels once it is moved lies over the other, too.
+  const ChartFindings over =
+      check_charts(make_squares({first, {{2.6f, 0.6f}, {0.3f, 0.3f}}}), 64, 64);
+  EXPECT_EQ(over.overlaps.size(), 1u);
+  EXPECT_EQ(over.n_elsewhere, 1u);
+  EXPECT_EQ(over.first_elsewhere, 2u);
+  EXPECT_NE(find_obstacle(over, true)
+                .find("1 chart lies in another tile of the picture, the first "
+                      "at triangle 2 in 2, 0"),
+            std::string::npos);
+}
+
+// The range that is named is that of the chart that repeats, not of all.
+TEST(ChartChecks, NamesTheRangeOfTheChartThatRepeats) {
+  const ChartFindings f = check_charts(
+      make_squares(
+          {{{0.6f, 0.6f}, {0.3f, 0.3f}}, {{5, 0}, {0.5f, 0.5f}}, {{0.25f, 0.5f}, {2.5f, 0.25f}}}),
+      64, 64);
+  EXPECT_NE(find_obstacle(f).find("1 chart wants a picture that repeats, the first at triangle 4 "
+                                  "(u 0.25 to 2.75, v 0.5 to 0.75)"),
+            std::string::npos)
+      << find_obstacle(f);
 }
 
 TEST(ChartChecks, AllInAnotherTile) {
@@ -331,8 +373,8 @@ TEST(ChartChecks, SeveralOfAKind) {
                                      {{0.125f, 0}, {0.25f, 0.25f}},
                                      {{0, 0.5f}, {0.25f, 0.25f}},
                                      {{0.1875f, 0.5f}, {0.25f, 0.25f}},
-                                     {{1.5f, 0}, {0.25f, 0.25f}},
-                                     {{2.5f, 0}, {0.25f, 0.25f}}});
+                                     {{1.9f, 0}, {0.25f, 0.25f}},
+                                     {{2.5f, 0}, {2.25f, 0.25f}}});
   const ChartFindings f = check_charts(mesh, 64, 64);
   EXPECT_EQ(f.n_flat, 2u);
   EXPECT_EQ(f.first_flat, 2u);

@@ -36,16 +36,25 @@ void check_start(const TexadaptArguments& a, const TexadaptInputs& in, const std
                              : "is the map of another progressive mesh");
 }
 
-// Where all of the mesh lies in one tile of a repeating picture it is moved into the first.
-void leave_tile(TexadaptInputs& in, ChartFindings& findings, const TexadaptArguments& a) {
+std::string describe_moves(const ChartFindings& findings) {
   const glm::ivec2 tile = findings.tile;
-  if (tile == glm::ivec2(0)) return;
-  shift_texcoords(in.record, -glm::vec2(tile));
+  if (tile != glm::ivec2(0))
+    return "the mesh lies in another tile of a picture that repeats: " + std::to_string(-tile.x) +
+           " is added to u and " + std::to_string(-tile.y) + " to v\n";
+  return std::to_string(findings.n_elsewhere) + " of " + std::to_string(findings.n_charts) +
+         " charts lie in other tiles of a picture that repeats: they are moved by whole tiles into "
+         "the first\n";
+}
+
+// Charts in other tiles of a repeating picture are moved into the first.
+void leave_tiles(TexadaptInputs& in, ChartFindings& findings, const TexadaptArguments& a) {
+  if (findings.tiles.empty()) return;
+  std::vector<glm::vec2> by;
+  for (const glm::ivec2& tile : findings.tiles) by.push_back(-glm::vec2(tile));
+  move_texcoords(in.record, by);
   in.finest = extract_finest(in.record);
+  in.charts = describe_moves(findings);
   findings = check_charts(in.finest, a.options.width_px, a.options.height_px);
-  in.charts =
-      "the mesh lies in another tile of a picture that repeats: " + std::to_string(-tile.x) +
-      " is added to u and " + std::to_string(-tile.y) + " to v\n";
 }
 
 }  // namespace
@@ -66,7 +75,7 @@ TexadaptInputs read_inputs(const Tool& tool, TexadaptArguments& a) {
   settle_size(a.options, in.texture);
   in.finest = extract_finest(in.record);
   ChartFindings findings = check_charts(in.finest, a.options.width_px, a.options.height_px);
-  leave_tile(in, findings, a);
+  leave_tiles(in, findings, a);
   in.hash = adaptation_hash(in.record);
   check_start(a, in, label);
   if (const std::string obstacle = find_obstacle(findings, a.allows_overlap); !obstacle.empty())
