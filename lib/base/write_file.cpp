@@ -106,7 +106,7 @@ PendingFolder::PendingFolder(const fs::path& target) {
   remove_leftovers(folder_of(target));
   for (int n_tries = 0; n_tries < kMostNames; ++n_tries) {
     const fs::path name = temporary_beside(target);
-    if (!folder_.make(name, [&] { return ::mkdir(name.c_str(), 0700) == 0; })) break;
+    if (!folder_.make(name, [&] { return ::mkdir(name.c_str(), 0777) == 0; })) break;
     lock_ = Descriptor(::open(name.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC));
     if (lock_.is_open() && lock_temporary(lock_.get()) && is_still_there(lock_.get())) return;
     folder_.keep();  // it is another's to remove

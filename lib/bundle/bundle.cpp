@@ -111,8 +111,9 @@ void check_cells(const CellSet& cells, const BundleManifest& manifest,
 Bundle::Bundle(const fs::path& folder, const ReadSceneOptions& options)
     : manifest_(read_manifest(folder / kManifestName)),
       key_(bake_key(manifest_)),
-      bake_(bake_folder(folder, key_)),
+      bake_(bake_folder(folder, manifest_)),
       hold_(bake_) {
+  for (const char* name : {"scene.json", "cells.json"}) refuse_special(bake_ / name);
   scene_ = read_scene(bake_ / "scene.json", options);
   check_scene(scene_, manifest_, bake_);
   cells_ = read_cells(bake_ / "cells.json");

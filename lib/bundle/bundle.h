@@ -99,8 +99,9 @@ class Bundle {
 
 /// What tells a bake from every other: a hash of all that the manifest says but `files`.
 std::string bake_key(const BundleManifest& manifest);
-/// The folder of a bake's files in the bundle's.
-std::filesystem::path bake_folder(const std::filesystem::path& bundle, const std::string& key);
+/// The folder of a bake's files in the bundle's. Its name is of all that the manifest says.
+std::filesystem::path bake_folder(const std::filesystem::path& bundle,
+                                  const BundleManifest& manifest);
 /// "cells/cell-00012.geo", "centres/centre-00034.tex": in the bake's folder.
 std::string cell_name(CellId cell);
 std::string centre_name(CentreId centre);

@@ -1,27 +1,28 @@
 #include "bundle/bundle_writer.h"
 
+#include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cctype>
+#include <cstdio>
 
 #include "base/error.h"
-#include "base/file.h"
 
 namespace viewcell {
 namespace fs = std::filesystem;
 namespace {
 
-// The manifest that is there, if it can be read: it decides what may be removed, nothing else.
-Json read_old_manifest(const fs::path& file) {
+// Whether a manifest of version 1 is there.
+bool is_version_1(const fs::path& file) {
   std::error_code ignored;  // a folder without one is new
-  if (!fs::is_regular_file(file, ignored)) return Json::object();
+  if (!fs::is_regular_file(file, ignored)) return false;
   try {
-    Json json = parse_json(read_file(file, 1u << 30), file);
-    return json.is_object() ? json : Json::object();
+    const Json json = parse_json(read_file(file, 1u << 30), file);
+    return json.is_object() && json.contains("version") && json["version"] == 1;
   } catch (const InputError&) {
-    return Json::object();
+    return false;
   }
 }
 
@@ -31,12 +32,11 @@ bool is_bake_name(const std::string& name) {
                      [](unsigned char c) { return std::isxdigit(c); });
 }
 
-void remove_bakes_but(const fs::path& folder, const std::vector<fs::path>& kept) {
+void remove_bakes_but(const fs::path& folder, const fs::path& kept) {
   std::error_code error;
   std::vector<fs::path> old;
   for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error))
-    if (is_bake_name(at->path().filename().string()) &&
-        std::find(kept.begin(), kept.end(), at->path()) == kept.end())
+    if (is_bake_name(at->path().filename().string()) && at->path() != kept)
       old.push_back(at->path());
   for (const fs::path& bake : old) remove_unheld(bake);
 }
@@ -78,24 +78,26 @@ const fs::path& made(const fs::path& folder, Temporary& is_new) {
   return folder;
 }
 
+// The folder is at the target; what was there, the same files by their hashes, goes with `from`.
+void put_in_place(const fs::path& from, const fs::path& target) {
+  if (::rename(from.c_str(), target.c_str()) == 0) return;
+  if (::renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, target.c_str(), RENAME_EXCHANGE) == 0) return;
+  const fs::path away = from / "replaced";  // a file system that cannot exchange
+  if (::rename(target.c_str(), away.c_str()) != 0 || ::rename(from.c_str(), target.c_str()) != 0)
+    throw MachineError(target.string() + ": cannot rename into place: " + errno_text());
+  std::error_code ignored;  // it is in nobody's way
+  fs::remove_all(target / "replaced", ignored);
+}
+
 }  // namespace
 
 BundleWriter::BundleWriter(const fs::path& folder, BundleManifest manifest)
     : folder_(folder),
       lock_(made(folder, new_folder_), "cellpack", std::to_string(::getpid())),
+      bake_(folder / "bake"),
       manifest_(std::move(manifest)),
-      key_(bake_key(manifest_)),
-      bake_(bake_folder(folder, key_)) {
-  const Json old = read_old_manifest(folder / kManifestName);
-  std::vector<fs::path> kept = {bake_};
-  if (old.contains("key") && old["key"].is_string())
-    kept.push_back(bake_folder(folder, old["key"].get<std::string>()));
-  remove_bakes_but(folder, kept);
-  if (kept.size() < 2 || kept[1] != bake_) {
-    remove_unheld(bake_);
-    new_bake_.make(bake_, [&] { return ::mkdir(bake_.c_str(), 0777) == 0; });
-  }
-  for (const char* part : {"cells", "centres"}) make_folder(bake_ / part);
+      key_(bake_key(manifest_)) {
+  for (const char* part : {"cells", "centres"}) make_folder(bake_.path() / part);
 }
 
 void BundleWriter::add_file(const std::string& name, const std::string& hash) {
@@ -105,31 +107,39 @@ void BundleWriter::add_file(const std::string& name, const std::string& hash) {
 
 void BundleWriter::write(CellId cell, const CellGeometry& geometry) {
   const std::string name = cell_name(cell);
-  add_file(name, write_cell_geometry(bake_ / name, cell, key_, geometry));
+  add_file(name, write_cell_geometry(bake_.path() / name, cell, key_, geometry));
 }
 
 void BundleWriter::write(CentreId centre, const CentreTextures& textures) {
   const std::string name = centre_name(centre);
-  add_file(name,
-           write_centre_textures(bake_ / name, centre, key_, textures, manifest_.texture_format));
+  add_file(name, write_centre_textures(bake_.path() / name, centre, key_, textures,
+                                       manifest_.texture_format));
 }
 
 void BundleWriter::write_copy(const std::string& name, std::string_view bytes,
                               const std::string& hash) {
-  make_folder((bake_ / name).parent_path());
-  write_file(bake_ / name, bytes);
+  make_folder((bake_.path() / name).parent_path());
+  write_file(bake_.path() / name, bytes);
   if (!hash.empty()) add_file(name, hash);
 }
 
 void BundleWriter::commit() {
-  const Json old = read_old_manifest(folder_ / kManifestName);
-  const bool was_version_1 = old.contains("version") && old["version"] == 1;
+  const bool was_version_1 = is_version_1(folder_ / kManifestName);
+  const fs::path target = bake_folder(folder_, manifest_);
   PendingFile manifest(folder_ / kManifestName, format_json(format_manifest(manifest_)));
-  manifest.commit([&] {
-    new_bake_.keep();
+  run_uninterrupted([&] {
+    const bool is_new = !fs::exists(target);
+    bool is_committed = false;
+    put_in_place(bake_.path(), target);
+    try {
+      manifest.commit([&] { is_committed = true; });
+    } catch (const MachineError&) {
+      if (is_new && !is_committed) fs::remove_all(target);
+      throw;
+    }
     new_folder_.keep();
   });
-  remove_bakes_but(folder_, {bake_});
+  remove_bakes_but(folder_, target);
   if (was_version_1) remove_version_1(folder_);
 }
 

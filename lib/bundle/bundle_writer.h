@@ -3,7 +3,7 @@
 
 #include <mutex>
 
-#include "base/temporaries.h"
+#include "base/file.h"
 #include "bundle/bundle.h"
 
 namespace viewcell {
@@ -22,8 +22,8 @@ class BundleWriter {
   /// The bytes of scene.json, cells.json or, with their hash, of a mesh.
   void write_copy(const std::string& name, std::string_view bytes, const std::string& hash = "");
 
-  /// Puts the manifest, and with it the bake, into place; then removes earlier bakes but those that
-  /// a player holds.
+  /// Puts the bake and the manifest, which names it, into place; then removes earlier bakes but
+  /// those that a player holds.
   void commit();
 
  private:
@@ -33,11 +33,10 @@ class BundleWriter {
   std::filesystem::path folder_;
   Temporary new_folder_;  // the bundle's, where it is new
   FolderLock lock_;
+  PendingFolder bake_;
   BundleManifest manifest_;
   std::string key_;
-  std::filesystem::path bake_;
-  Temporary new_bake_;  // unless the bundle has that bake: then the same bytes are written again
-  std::mutex mutex_;    // guards manifest_.files
+  std::mutex mutex_;  // guards manifest_.files
 };
 
 }  // namespace viewcell

@@ -49,7 +49,7 @@ TextureFormat read_texture_format(const JsonCursor& cursor) {
   return format == "bc3" ? TextureFormat::bc3 : TextureFormat::rgba8;
 }
 
-// All but "key" and "files".
+// All but "key", "files" and "hash".
 Json format_bake(const BundleManifest& m) {
   return {{"format", kFormat},
           {"version", kVersion},
@@ -62,6 +62,15 @@ Json format_bake(const BundleManifest& m) {
           {"texture_format", m.texture_format == TextureFormat::bc3 ? "bc3" : "rgba8"},
           {"cells", format_ids(m.cells)},
           {"centres", format_ids(m.centres)}};
+}
+
+// All but "hash".
+Json format_all(const BundleManifest& m) {
+  Json json = format_bake(m);
+  json["key"] = bake_key(m);
+  json["files"] = Json::object();
+  for (const auto& [name, hash] : m.files) json["files"][name] = hash;
+  return json;
 }
 
 std::map<std::string, std::string> read_files(const JsonCursor& cursor, const BundleManifest& m) {
@@ -83,8 +92,8 @@ std::string bake_key(const BundleManifest& m) {
   return hash_hex(format_bake(m).dump());
 }
 
-fs::path bake_folder(const fs::path& bundle, const std::string& key) {
-  return bundle / ("bake-" + key);
+fs::path bake_folder(const fs::path& bundle, const BundleManifest& m) {
+  return bundle / ("bake-" + hash_hex(format_all(m).dump()));
 }
 
 std::string cell_name(CellId cell) {
@@ -96,10 +105,8 @@ std::string centre_name(CentreId centre) {
 }
 
 Json format_manifest(const BundleManifest& m) {
-  Json json = format_bake(m);
-  json["key"] = bake_key(m);
-  json["files"] = Json::object();
-  for (const auto& [name, hash] : m.files) json["files"][name] = hash;
+  Json json = format_all(m);
+  json["hash"] = hash_hex(json.dump());
   return json;
 }
 
@@ -118,10 +125,12 @@ BundleManifest read_manifest(const fs::path& file) {
   m.cells = read_ids<CellId>(root.at("cells"));
   m.centres = read_ids<CentreId>(root.at("centres"));
   if (m.cells.empty()) root.at("cells").fail("is empty");
-  if (read_hash(root.at("key")) != bake_key(m))
-    root.at("key").fail(std::string("is not that of what stands beside it, which was changed; ") +
-                        kRemedy);
   m.files = read_files(root.at("files"), m);
+  const Json expected = format_manifest(m);
+  for (const char* key : {"key", "hash"})
+    if (read_hash(root.at(key)) != expected[key])
+      root.at(key).fail(std::string("is not that of what stands beside it, which was changed; ") +
+                        kRemedy);
   return m;
 }
 

@@ -261,12 +261,9 @@ void write_capture_file(const std::filesystem::path& file, const std::vector<Cap
   const FileInMemory memory;
   const auto output = OIIO::ImageOutput::create("openexr");
   if (!output) throw MachineError("OpenImageIO cannot write OpenEXR");
-  if (!write_parts(*output, memory.name(), written, specs))
-    throw MachineError(file.string() + ": " + first_line(output->geterror()));
-  if (!is_whole(memory))
+  if (!write_parts(*output, memory.name(), written, specs) || !is_whole(memory))
     throw MachineError(file.string() +
-                       ": cannot write: more than memory or the limit of file sizes (ulimit -f) "
-                       "can hold");
+                       ": cannot write: memory or the limit of file sizes (ulimit -f) ends");
   write_file(file, memory.read());
 }
 

@@ -5,6 +5,12 @@
 
 namespace viewcell {
 
+/// The manifest's hash of all that it says.
+inline void seal_manifest(Json& json) {
+  json.erase("hash");
+  json["hash"] = hash_hex(json.dump());
+}
+
 class BundleCopy {
  public:
   explicit BundleCopy(const std::filesystem::path& of = shared_bundle()) {
@@ -12,12 +18,10 @@ class BundleCopy {
   }
 
   std::filesystem::path path() const { return folder_.path() / "bundle"; }
-  std::string key() const {
-    return Json::parse(read_file(path() / kManifestName)).at("key").get<std::string>();
-  }
-  /// A file of the bake.
+  /// Of the bake, and a file of it.
+  std::string key() const { return manifest().at("key").get<std::string>(); }
   std::filesystem::path file(const std::string& name) const {
-    return bake_folder(path(), key()) / name;
+    return path() / ("bake-" + manifest().at("hash").get<std::string>()) / name;
   }
 
   /// Writes it anew, by the bundle's own hand: the manifest says so. For values that no packer
@@ -32,10 +36,14 @@ class BundleCopy {
   }
 
  private:
+  Json manifest() const { return Json::parse(read_file(path() / kManifestName)); }
   void enter(const std::string& name, const std::string& hash) const {
-    Json manifest = Json::parse(read_file(path() / kManifestName));
-    manifest["files"][name] = hash;
-    put_bytes(path() / kManifestName, manifest.dump());
+    const std::filesystem::path old = file("");
+    Json json = manifest();
+    json["files"][name] = hash;
+    seal_manifest(json);
+    put_bytes(path() / kManifestName, json.dump());
+    std::filesystem::rename(old, file(""));
   }
 
   TemporaryFolder folder_;

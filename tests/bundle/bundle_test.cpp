@@ -385,6 +385,7 @@ TEST(Bundle, EveryLineOfTheManifestIsHeld) {
   const auto refused = [&](const char* key, const Json& value, const char* message) {
     Json json = Json::parse(manifest);
     json[key] = value;
+    if (std::string(key) != "hash") seal_manifest(json);
     put_bytes(copy.path() / "bundle.json", json.dump());
     EXPECT_INPUT_ERROR(Bundle{copy.path()}, "bundle.json");
     EXPECT_INPUT_ERROR(Bundle{copy.path()}, message);
@@ -392,8 +393,9 @@ TEST(Bundle, EveryLineOfTheManifestIsHeld) {
   const std::string other = "0123456789abcdef";
   refused("version", 1,
           "version 1, this tool reads version 2: pack the bundle again with cellpack");
-  for (const char* key : {"scene_hash", "cells_hash", "captures", "meshes", "key"}) {
-    refused(key, other, "key");
+  for (const char* key : {"scene_hash", "cells_hash", "captures", "meshes", "key", "hash"}) {
+    refused(key, other,
+            std::string(key) == "hash" ? "hash: is not that of" : "key: is not that of");
     refused(key, "0123", key);
     refused(key, "../../../../../x", key);
     refused(key, 7, key);
@@ -415,6 +417,8 @@ TEST(Bundle, EveryLineOfTheManifestIsHeld) {
   Json files = Json::parse(manifest)["files"];
   files["cells/cell-00001.geo"] = "no hash";
   refused("files", files, "files.cells/cell-00001.geo");
+  put_bytes(copy.path() / "bundle.json", replaced(manifest, files["torus.ply"], other));
+  EXPECT_INPUT_ERROR(Bundle{copy.path()}, "hash: is not that of what stands beside it");
   put_bytes(copy.path() / "bundle.json", Json::parse(manifest).dump());  // other blanks
   EXPECT_NO_THROW(Bundle{copy.path()});
 }
@@ -424,14 +428,14 @@ TEST(Bundle, CellsAndCentresMustBeOfTheGrid) {
   for (const bool is_cell : {true, false}) {
     const BundleCopy copy;
     BundleManifest manifest = Bundle(copy.path()).manifest();
-    const std::string old_key = copy.key();
+    const fs::path old = bake_folder(copy.path(), manifest);
     if (is_cell)
       manifest.cells.push_back(CellId(1000));
     else
       manifest.centres.push_back(CentreId(1000));
     manifest.files[cell_name(CellId(1000))] = manifest.files[centre_name(CentreId(1000))] =
         "0123456789abcdef";
-    fs::rename(bake_folder(copy.path(), old_key), bake_folder(copy.path(), bake_key(manifest)));
+    fs::rename(old, bake_folder(copy.path(), manifest));
     put_bytes(copy.path() / kManifestName, format_json(format_manifest(manifest)));
     EXPECT_INPUT_ERROR(Bundle{copy.path()}, "1000 is not within the grid's");
   }

@@ -156,6 +156,9 @@ bake() {
   expect 0 "$bin/cellpack" park/scene.json cells.json captures sv mv -o "$1"
 }
 
+# bake_of BUNDLE: the folder of its files.
+bake_of() { compgen -G "$1/bake-*"; }
+
 # overwrite FILE OFFSET TEXT: the bytes at that place.
 overwrite() { printf '%b' "$3" | dd of="$1" bs=1 seek="$2" conv=notrunc status=none; }
 
@@ -182,14 +185,14 @@ json_faults() {
   rm "$file"
   [ -n "${optional-}" ] || fault 1 "$file" "$@"
   : >"$file"
-  fault 1 "$file: byte" "$@"
+  fault 1 "$file: line" "$@"
   head -c $(($(stat -c %s "$log/good.json") / 2)) "$log/good.json" >"$file"
-  fault 1 "$file: byte" "$@"
+  fault 1 "$file: line" "$@"
   nested >"$file"
   fault 1 "nested deeper" "$@"
   echo '{"format": "viewcell-nothing", "version": 1}' >"$file"
   fault 1 "$file: \"format\" is not" "$@"
-  sed 's/"version": 1/"version": 2/' "$log/good.json" >"$file"
+  sed 's/"version": [0-9]/"version": 99/' "$log/good.json" >"$file"
   fault 1 "$file: version" "$@"
   noise 4096 >"$file"
   fault 1 "$file" "$@"

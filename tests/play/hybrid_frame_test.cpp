@@ -227,7 +227,7 @@ TEST(HybridFrame, ViewsAreMixedByTheirWeights) {
   const CellId cell = shared_bake().list.at(shared_bake().list.size() / 2);
   const auto centres = views_of(cells.grid, cell);
   {
-    const Bundle bundle(copy.path());
+    const Bundle bundle(shared_bundle());
     for (const CentreId centre : bundle.manifest().centres) {
       CentreTextures textures = bundle.read_centre(centre);
       const auto grey = static_cast<std::uint8_t>(centre == centres[0] ? 0 : 200);
