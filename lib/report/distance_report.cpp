@@ -102,7 +102,7 @@ std::string format_histogram(const SurfaceDistance& distance) {
   return "\n" + format_table(rows);
 }
 
-const char* name_of(PointCloud points) {
+const char* name_of_side(PointCloud points) {
   return points == PointCloud::a ? "A" : "B";
 }
 
@@ -114,7 +114,7 @@ std::string format_point_distance(const SurfaceDistance& distance) {
                         format_number(forward.rms), format_number(forward.p50),
                         format_number(forward.p95), format_number(forward.p99),
                         format_percent(forward.max, diagonal), std::to_string(forward.n_vertices)}};
-  return format_table(rows) + "forward is from the points of " + name_of(distance.points) +
+  return format_table(rows) + "forward is from the points of " + name_of_side(distance.points) +
          ", a point cloud, to the surface; there is no way back\n" +
          format_worst("forward", forward.worst, diagonal) + format_histogram(distance);
 }
@@ -142,7 +142,7 @@ Json report_surface_distance(const SurfaceDistance& distance, const DistanceOpti
   json["forward"] = report_side(distance.forward);
   const bool is_cloud = distance.points != PointCloud::none;
   if (is_cloud) {
-    json["points"] = name_of(distance.points);
+    json["points"] = name_of_side(distance.points);
     json["backward"] = json["symmetric"] = json["samples"] = json["seed"] = nullptr;
   } else {
     json["backward"] = report_side(distance.backward);

@@ -14,7 +14,7 @@ namespace viewcell {
 namespace {
 namespace fs = std::filesystem;
 
-constexpr CellId kCell{4};
+constexpr CellId kMutatedCell{4};
 
 struct Outcome {
   std::string refusal;  // empty: it was played
@@ -27,7 +27,7 @@ std::vector<Camera> make_cameras() {
   const CellSet& cells = shared_bake().cells;
   std::vector<Camera> cameras(2);
   for (std::size_t i = 0; i < 2; ++i) {
-    cameras[i].eye = eye_of(cells, kCell);
+    cameras[i].eye = eye_of(cells, kMutatedCell);
     cameras[i].forward =
         glm::normalize(shared_bake().scene.objects[i + 2].translation - cameras[i].eye);
   }
@@ -97,8 +97,8 @@ struct Sections {
 class Mutator {
  public:
   explicit Mutator(std::uint64_t seed) : random_(seed), whole_(read_files(copy_.path())) {
-    std::set<std::string> needed = {cell_name(kCell)};  // by the frames that are drawn
-    for (const CentreId centre : views_of(shared_bake().cells.grid, kCell))
+    std::set<std::string> needed = {cell_name(kMutatedCell)};  // by the frames that are drawn
+    for (const CentreId centre : views_of(shared_bake().cells.grid, kMutatedCell))
       needed.insert(centre_name(centre));
     for (const auto& [name, bytes] : whole_) {
       const bool has_sections = name.ends_with(".geo") || name.ends_with(".tex");
