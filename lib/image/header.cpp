@@ -23,7 +23,7 @@ const std::vector<FormatRow>& format_rows() {
   static const std::vector<FormatRow> rows = {
       {ImageFormat::png, "png", ".png", {".png"}, png_facts},
       {ImageFormat::jpeg, "jpeg", ".jpg", {".jpg", ".jpeg"}, jpeg_facts},
-      {ImageFormat::openexr, "openexr", ".exr", {".exr"}, nullptr},
+      {ImageFormat::openexr, "openexr", ".exr", {".exr"}, exr_facts},
       {ImageFormat::tiff, "tiff", ".tif", {".tif", ".tiff"}, nullptr},
       {ImageFormat::webp, "webp", ".webp", {".webp"}, webp_facts},
       {ImageFormat::gif, "gif", ".gif", {".gif"}, gif_facts},

@@ -36,7 +36,7 @@ const char* extension_of(ImageFormat format);
 const std::vector<std::string>& picture_endings();
 
 /// Tells the format and, where the decoder would allocate the picture before it can be asked for
-/// its size (all but EXR and TIFF), holds the size in the header against the limits, and against
+/// its size (all but TIFF), holds the size in the header against the limits, and against
 /// what the file's bytes can hold: a PNG is inflated on the way, a JPEG's segments are walked. A
 /// JPEG must also have its end marker, since its decoder makes up what is missing. Further pictures
 /// (frames, pages) are remarked. Throws InputError(file).

@@ -13,7 +13,7 @@ struct Inflation {
   const char* compression;
   std::uint64_t most;
 };
-constexpr std::array<Inflation, 12> kInflations{{{"none", 2},  // 2: colour may be stored coarser
+constexpr std::array<Inflation, 11> kInflations{{{"none", 2},  // 2: colour may be stored coarser
                                                  {"packbits", 128},
                                                  {"rle", 128},
                                                  {"zip", 1032},
@@ -23,11 +23,16 @@ constexpr std::array<Inflation, 12> kInflations{{{"none", 2},  // 2: colour may 
                                                  {"lzw", 4096},
                                                  {"jpeg", 4096},
                                                  {"b44", 64},
-                                                 {"b44a", 64},
-                                                 {"dwaa", 1 << 17}}};
-constexpr std::uint64_t kMostInflation = 1 << 17;  // any other: fax, zstd, lzma, dwab
+                                                 {"b44a", 64}}};
+// Of any other (fax, zstd, lzma, dwaa), in which a few bytes may say any size: a guess.
+constexpr std::uint64_t kLikelyInflation = 8192;
 
-std::uint64_t most_inflation(const OIIO::ImageSpec& spec) {
+struct InflationBound {
+  std::uint64_t most = 0;
+  bool is_law = true;
+};
+
+InflationBound bound_inflation(const OIIO::ImageSpec& spec) {
   // "zip:4" names a level, too; a palette's colours come out as three channels of 8 bits, and a bit
   // as a byte.
   std::string name = spec.get_string_attribute("compression", "none");
@@ -38,18 +43,21 @@ std::uint64_t most_inflation(const OIIO::ImageSpec& spec) {
                                 : bits < 8 ? 8 / bits
                                            : 1;
   for (const Inflation& known : kInflations)
-    if (name == known.compression) return known.most * widened;
-  return kMostInflation * widened;
+    if (name == known.compression) return {known.most * widened, true};
+  return {kLikelyInflation * widened, false};
 }
 
 // What decoding would allocate, against what the file's bytes can hold.
-void check_inflation(const OIIO::ImageSpec& spec, std::size_t n_file_bytes,
-                     const std::string& file) {
-  if (spec.image_bytes(true) / most_inflation(spec) > n_file_bytes)
+void check_inflation(const OIIO::ImageSpec& spec, std::size_t n_file_bytes, const std::string& file,
+                     const ImageLimits& limits) {
+  const InflationBound bound = bound_inflation(spec);
+  if (!bound.is_law && limits.max_pixels) return;
+  if (spec.image_bytes(true) / bound.most > n_file_bytes)
     throw InputError(file, "header",
                      std::to_string(spec.width) + " x " + std::to_string(spec.height) +
                          " pixels: " + std::to_string(spec.image_bytes(true)) +
-                         " bytes of pixels in a file of " + std::to_string(n_file_bytes));
+                         " bytes of pixels in a file of " + std::to_string(n_file_bytes) +
+                         (bound.is_law ? "" : ": decoded with --max-pixels alone"));
 }
 
 // What the decoder will allocate, before it does.
@@ -65,7 +73,7 @@ void check_spec(const MemoryInput& picture, std::size_t n_file_bytes, const std:
         file, "header",
         std::to_string(spec.nchannels) + " channels, more than " + std::to_string(kMaxChannels));
   if (picture.format == ImageFormat::openexr || picture.format == ImageFormat::tiff)
-    check_inflation(spec, n_file_bytes, file);
+    check_inflation(spec, n_file_bytes, file, limits);
 }
 
 void remark_spec(MemoryInput& picture, const std::string& file, Remarks* remarks) {

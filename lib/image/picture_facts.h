@@ -42,6 +42,8 @@ class HeaderBytes {
 /// inflated to nowhere, for libpng prints on stderr what it finds.
 std::optional<PictureFacts> png_facts(std::string_view bytes);
 std::optional<PictureFacts> jpeg_facts(std::string_view bytes);
+/// The first part of several, which others remark.
+std::optional<PictureFacts> exr_facts(std::string_view bytes);
 std::optional<PictureFacts> webp_facts(std::string_view bytes);
 std::optional<PictureFacts> gif_facts(std::string_view bytes);
 std::optional<PictureFacts> bmp_facts(std::string_view bytes);

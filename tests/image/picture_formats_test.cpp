@@ -312,6 +312,28 @@ TEST(PictureBombs, TiffAndExr) {
   }
 }
 
+// An attribute that says two gigabytes, a window of as many rows: OpenEXR makes room for either.
+TEST(PictureBombs, ExrHeaders) {
+  const TemporaryFolder folder;
+  const auto file = (folder / "a.exr").string();
+  const auto output = OIIO::ImageOutput::create(file);
+  ASSERT_TRUE(output->open(file, OIIO::ImageSpec(4, 4, 3, OIIO::TypeHalf)));
+  const std::vector<std::uint8_t> samples(48);
+  ASSERT_TRUE(output->write_image(OIIO::TypeUInt8, samples.data()));
+  output->close();
+  const std::string good = read_file(file);
+  std::string bad = good;
+  const std::size_t size = bad.find(std::string("channels\0chlist\0", 16)) + 16;
+  bad.replace(size, 4, le32(0x7c000013));
+  const Costs before = costs_now();
+  EXPECT_INPUT_ERROR(decode(bad), "malformed or cut openexr");
+  bad = good;
+  const std::size_t window = bad.find("dataWindow") + 11 + 6 + 4;
+  bad.replace(window + 8, 8, le32(0) + le32(0x7ffffff0));
+  EXPECT_INPUT_ERROR(decode(bad), "1 x 2147483633 pixels");
+  EXPECT_LT(costs_now().memory_kib - before.memory_kib, 32 * 1024);
+}
+
 // A plain picture is small, and true.
 TEST(PictureBombs, PlainPicturesAreNone) {
   using namespace std::string_literals;
