@@ -85,9 +85,11 @@ void remark_spec(MemoryInput& picture, const std::string& file, Remarks* remarks
     if (const std::string space = picture.spec.get_string_attribute(key);
         space == "CMYK" || space == "YCbCrK")
       add_remark(remarks, space + ", taken as RGB without its profile");
-  if (remarks == nullptr) return;
+  // The pictures of other formats are counted by check_image_header.
+  const bool is_exr = picture.format == ImageFormat::openexr;
+  if (remarks == nullptr || !(is_exr || picture.format == ImageFormat::tiff)) return;
   int n = picture.spec.get_int_attribute("oiio:subimages", 1);
-  if (picture.format == ImageFormat::tiff) {  // does not count its pages
+  if (!is_exr) {  // TIFF does not count its pages
     constexpr int kMostCounted = 1000;
     const bool is_back = call_library(file, [&] {
       for (n = 1; n < kMostCounted && picture.input->seek_subimage(n, 0);) ++n;
@@ -117,9 +119,7 @@ MemoryInput open_memory(std::string_view bytes, const std::string& file, const I
   if (!call_library(file, [&] { return picture.input->open(file, picture.spec, hints); }))
     throw InputError(file, "", first_line(picture.input->geterror()));
   check_spec(picture, bytes.size(), file, limits);
-  if (picture.format == ImageFormat::openexr || picture.format == ImageFormat::tiff ||
-      picture.format == ImageFormat::jpeg || picture.format == ImageFormat::hdr)
-    remark_spec(picture, file, remarks);
+  remark_spec(picture, file, remarks);
   return picture;
 }
 

@@ -20,13 +20,13 @@ Plot make_plot(const Timeline& timeline, const std::string& title, const std::st
   return {title, {std::move(panel)}, "new cell", PlotStyle::lines};
 }
 
-// A frame that was not compared is no point of a line: its neighbours are joined. One that was, and
-// in which nothing shows, breaks the line.
+// A frame that was not compared, or in which nothing shows, says nothing of quality: it is no point
+// of a line, and its neighbours are joined.
 void add_quality(double time_s, const PictureQuality& quality, double PictureQuality::*field,
                  PlotLine& line) {
-  if (std::isnan(quality.mse)) return;
+  if (std::isnan(quality.mse) || quality.n_covered_px == 0) return;
   line.x.push_back(time_s);
-  line.y.push_back(quality.n_covered_px == 0 ? kNotMeasured : quality.*field);
+  line.y.push_back(quality.*field);
 }
 
 PlotLine start_line(Mode mode) {

@@ -110,4 +110,14 @@ has_keys stats.json frames width_px height_px renderer gl_threads modes triangle
   psnr_covered_db texture_bytes_mean draws_mean missing_px_mean yardstick coverage_mean speedup \
   hybrid_over_frustum per_frame
 find frames -name '*.png' | grep -q . || fail "no frames saved"
+# Saved frames are opaque, unless their alpha is wanted.
+frame=frustum/frame-00000.png
+expect 0 "$bin/psnr" frames/$frame frames/$frame --json -
+is covered_px 4096
+expect 0 "$bin/play" bundle --path path.json --frames 1 --size 64x64 --save seen --save-alpha
+expect 0 "$bin/psnr" seen/$frame seen/$frame --json -
+holds "$(key covered_px) > 0 && $(key covered_px) < 4096"
+# Frames that are not compared do not break the lines of plots.
+expect 0 "$bin/play" bundle --path path.json --frames 7 --size 64x64 --quality-every 3 --plots plots
+grep -q '<path d="M[^"]*L[^"]*" fill="none" stroke="#' plots/psnr.svg || fail "no curves: $(cat plots/psnr.svg)"
 echo "chain.sh: all well"

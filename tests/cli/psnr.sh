@@ -102,7 +102,8 @@ for j in 1 2 8; do
 done
 # Progress on a terminal that can write over a line, and there alone.
 if command -v script >/dev/null; then
-  TERM=xterm script -qec "$psnr A B" /dev/null </dev/null | grep -q "pair 3 of 3" || fail "no progress"
+  TERM=xterm script -qec "$psnr A B" /dev/null </dev/null >"$log/out"
+  grep -q "pair 3 of 3" "$log/out" || fail "no progress: $(cat "$log/out")"
   for quiet in "TERM=dumb script -qec '$psnr A B' /dev/null" "TERM=xterm script -qec '$psnr A B -q' /dev/null"; do
     bash -c "$quiet" </dev/null >"$log/out"
     ! grep -q "pair 3 of 3" "$log/out" || fail "progress by $quiet"
