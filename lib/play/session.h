@@ -20,7 +20,7 @@ struct SessionOptions {
   std::size_t turn_frames = 24;
   std::filesystem::path save;  ///< folder of frames, MODE/frame-00012.png; empty: none
   std::size_t save_every = 1;
-  bool save_alpha = false;  ///< as image/image.h has it; otherwise saved frames are opaque
+  bool save_alpha = false;        ///< as image/image.h has it; otherwise saved frames are opaque
   std::size_t n_sheet_rows = 4;   ///< frames on the contact sheet
   std::size_t quality_every = 1;  ///< compare every K-th frame
   bool with_quality = true;       ///< compare pictures (some seconds a hundred frames and mode)
