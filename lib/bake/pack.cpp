@@ -99,8 +99,8 @@ std::size_t count_inside(const Scene& scene, const CellSet& cells, CellId cell) 
   return n;
 }
 
-void sum_counts(const Scene& scene, const CellSet& cells, CellId cell, const CellMeshes& meshes,
-                PackCounts& counts) {
+void add_cell(const Scene& scene, const CellSet& cells, CellId cell, const CellMeshes& meshes,
+              PackCounts& counts) {
   counts.n_inside += cells.inside[index(cell)].size();
   counts.n_triangles_inside += count_inside(scene, cells, cell);
   for (std::size_t m = 0; m < meshes.meshes.size(); ++m) {
@@ -209,7 +209,7 @@ PackCounts pack_bundle(const Scene& scene, const CellSet& cells, const PackInput
     const CellMeshes meshes = read_again(scene, cells, inputs, checked, list, i);
     writer.write(list[i], make_geometry(scene, meshes));
     const std::lock_guard lock(mutex);
-    sum_counts(scene, cells, list[i], meshes, counts);
+    add_cell(scene, cells, list[i], meshes, counts);
   };
   parallel_for(list.size(), n_threads, pack_cell, progress);
   const auto pack_centre = [&](std::size_t i) {

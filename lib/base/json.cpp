@@ -70,7 +70,7 @@ std::string place_of(const std::string& text, std::size_t at) {
          ", column " + std::to_string(before.size() - line_start + 1);
 }
 
-// Letters to insert, leave out, change or swap with their neighbour [Damerau64].
+// Letters to insert, leave out, change or swap with their neighbour (Damerau and Levenshtein).
 std::size_t count_typos(const std::string& a, const std::string& b) {
   std::vector<std::vector<std::size_t>> d(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
   for (std::size_t i = 0; i <= a.size(); ++i)

@@ -12,9 +12,9 @@ cp cells.json c.json
 json_faults c.json "$bin/depthcap" park/scene.json c.json -o x
 head -c 500 cells.json >c.json
 for tool in svmesh mvmesh; do
-  fault 1 "c.json: byte" "$bin/$tool" park/scene.json c.json captures -o x
+  fault 1 "c.json: line" "$bin/$tool" park/scene.json c.json captures -o x
 done
-fault 1 "c.json: byte" "$bin/cellpack" park/scene.json c.json captures sv mv -o x
+fault 1 "c.json: line" "$bin/cellpack" park/scene.json c.json captures sv mv -o x
 cp -r captures caps
 json_faults caps/captures.json "$bin/svmesh" park/scene.json cells.json caps -o x
 json_faults p/path.json "$bin/depthcap" park/scene.json cells.json --cells path:p/path.json -o x
@@ -27,7 +27,7 @@ scene_fault() {
   fault 1 "$2" "$bin/hexcells" p/scene.json -o x
 }
 scene_fault 's/"hi": \[200/"hi": [0/' 'p/scene.json: area'
-scene_fault 's/"hi": \[200/"hi": [NaN/' 'p/scene.json: byte'
+scene_fault 's/"hi": \[200/"hi": [NaN/' 'p/scene.json: line 2, column'
 scene_fault 's/"hi": \[200/"hi": [1e999/' 'p/scene.json'
 scene_fault 's/"hi": \[200/"hi": ["wide"/' 'p/scene.json: area.hi[0]: is not a number'
 scene_fault 's/\[0.6, 0, 0.8\]/[0.6, 0, 0.9]/' 'light.toward_light: is not a unit vector'

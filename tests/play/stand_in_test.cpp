@@ -9,11 +9,11 @@
 namespace viewcell {
 namespace {
 
-constexpr int kPicture_px = 128;
+constexpr int kFramePx = 128;
 
 PlayerOptions small_player(bool with_lod = false) {
   PlayerOptions options;
-  options.width_px = options.height_px = kPicture_px;
+  options.width_px = options.height_px = kFramePx;
   options.residency = {.pool_texels = 8u << 20, .prefetch = false};
   options.with_lod = with_lod;
   return options;
