@@ -88,7 +88,13 @@ std::size_t count_typos(const std::string& a, const std::string& b) {
   return d[a.size()][b.size()];
 }
 
-// The known key that is nearest, or "" when none is near.
+bool begins_as(const std::string& one, const std::string& other) {
+  constexpr std::size_t kLeast = 2;
+  return std::min(one.size(), other.size()) >= kLeast &&
+         (one.starts_with(other) || other.starts_with(one));
+}
+
+// The known key that is nearest, by its letters or its beginning, or "" when none is near.
 std::string guess_key(const std::string& key, std::span<const char* const> known) {
   constexpr std::size_t kLongestKey = 64;  // longer ones are no typing errors
   if (key.size() > kLongestKey) return "";
@@ -96,6 +102,8 @@ std::string guess_key(const std::string& key, std::span<const char* const> known
   std::size_t fewest = 1 + std::max<std::size_t>(1, key.size() / 3);
   for (const char* one : known)
     if (const std::size_t n = count_typos(key, one); n < fewest) fewest = n, guess = one;
+  for (const char* one : known)
+    if (guess.empty() && begins_as(key, one)) guess = one;
   return guess;
 }
 

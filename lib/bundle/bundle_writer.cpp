@@ -71,7 +71,7 @@ const fs::path& made(const fs::path& folder, Temporary& is_new) {
   std::error_code ignored;  // make_folder says what is wrong
   if (!fs::exists(folder, ignored)) {
     const fs::path leaf = folder.has_filename() ? folder : folder.parent_path();  // "bundle/"
-    if (leaf.has_parent_path()) make_folder(leaf.parent_path());
+    fs::create_directories(leaf.parent_path(), ignored);
     is_new.make(leaf, [&] { return ::mkdir(leaf.c_str(), 0777) == 0; });
   }
   make_folder(folder);

@@ -131,6 +131,9 @@ TEST(UnknownKeys, AreSaidOnceWithWhatWasMeant) {
   EXPECT_EQ(remarks[0].count, 2u);
   EXPECT_EQ(remarks[1].what, "key 'Hash' of a mesh is unknown and passed over; is 'hash' meant?");
   EXPECT_EQ(remarks[2].what, "key 'author' of a mesh is unknown and passed over");
+  const Json json = parse(R"({"up_axis": 1})");
+  remark_unknown_keys(JsonCursor(json, kFile), "a mesh", kKnown, &remarks);
+  EXPECT_EQ(remarks[3].what, "key 'up_axis' of a mesh is unknown and passed over; is 'up' meant?");
 }
 
 TEST(ReadJson, HoldsFormatAndVersion) {

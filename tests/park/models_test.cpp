@@ -51,6 +51,20 @@ TEST(Models, AreScaledAloneToTheTablesVolumeAndSetOnTheGround) {
   }
 }
 
+TEST(Models, UnknownKeysOfTheListAreSaid) {
+  TemporaryFolder folder;
+  fill(folder);
+  Json list = make_list();
+  list["models"][0]["rotate_z"] = 90;
+  list["models"][1]["source"] = "a shop";  // of scripts/fetch-models
+  folder.add("models.json", list.dump());
+  const ParkMeshes park = make_park_meshes(folder.path());
+  ASSERT_EQ(park.remarks.size(), 1u);
+  ASSERT_EQ(park.remarks[0].remarks.size(), 1u);
+  EXPECT_EQ(park.remarks[0].remarks[0].what,
+            "key 'rotate_z' of a model is unknown and passed over; is 'rotate_z_deg' meant?");
+}
+
 TEST(Models, AreTurnedAsTheListSays) {
   TemporaryFolder folder;
   fill(folder);

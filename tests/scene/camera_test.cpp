@@ -93,6 +93,39 @@ TEST(CameraPath, BadPathsAreRefused) {
   refuse([](Json& j) { j["samples"][0]["forward"] = {0, 0, 0}; }, "has no length");
   refuse([](Json& j) { j["samples"][0]["forward"] = {0, 0, -1}; }, "is vertical");
   refuse([](Json& j) { j["samples"][0].erase("eye"); }, "has no \"eye\"");
+  refuse([](Json& j) { j["fov_y_deg"] = 45; }, "fov_y_deg: is not 60");
+}
+
+TEST(CameraPath, UnknownKeysAreSaid) {
+  TemporaryFolder folder;
+  Json json = format_path(make_bent_path(), {{"tool", "test"}});
+  Remarks remarks;
+  read_path(folder.add("path.json", format_json(json)), &remarks);
+  EXPECT_TRUE(remarks.empty());
+  for (Json& sample : json["samples"]) sample["froward"] = sample["forward"];
+  read_path(folder.add("path.json", format_json(json)), &remarks);
+  ASSERT_EQ(remarks.size(), 1u);
+  EXPECT_EQ(remarks[0].what,
+            "key 'froward' of a sample is unknown and passed over; is 'forward' meant?");
+  EXPECT_EQ(remarks[0].count, json["samples"].size());
+}
+
+// Right-handed, unit, at right angles: of any camera's view, and of nothing else.
+TEST(ViewFrame, IsThatOfAView) {
+  Random random(8);
+  for (int k = 0; k < 200; ++k) {
+    const glm::dvec3 forward = glm::normalize(
+        glm::dvec3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-0.9, 0.9)));
+    const auto [right, up] = picture_axes(forward);
+    ASSERT_TRUE(is_view_frame(right, up, forward)) << k;
+    EXPECT_FALSE(is_view_frame(-right, up, forward));
+    EXPECT_FALSE(is_view_frame(up, right, forward));
+    EXPECT_FALSE(is_view_frame(right, up, 1.001 * forward));
+    EXPECT_FALSE(is_view_frame(glm::normalize(right + 0.001 * up), up, forward));
+    EXPECT_FALSE(is_view_frame(right, up, glm::dvec3(std::nan(""))));
+    EXPECT_FALSE(is_view_frame(right * HUGE_VAL, up, forward));
+  }
+  EXPECT_FALSE(is_view_frame({}, {}, {}));
 }
 
 }  // namespace

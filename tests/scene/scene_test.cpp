@@ -293,6 +293,43 @@ TEST(Scene, ALinkOutOfTheFolderIsRefused) {
   EXPECT_INPUT_ERROR(read_scene(small.write()), "leaves the file's folder");
 }
 
+TEST(Scene, HashesAreOfTheBytesThatWereParsed) {
+  SmallSceneFolder small;
+  const std::filesystem::path file = small.write();
+  const Scene scene = read_scene(file);
+  EXPECT_EQ(scene.file_hash, hash_file(file));
+  for (const SceneMesh& mesh : scene.meshes)
+    EXPECT_EQ(mesh.hash, hash_file(small.folder().path() / mesh.file));
+  EXPECT_TRUE(scene.remarks.empty());  // what we write holds nothing unknown
+}
+
+// Misspelt keys are no errors, but said: once each, with what was meant.
+TEST(Scene, UnknownKeysAreSaid) {
+  SmallSceneFolder small;
+  for (Json& mesh : small.json()["meshes"]) {
+    mesh["substitues"] = mesh["substitutes"];
+    mesh.erase("substitutes");
+  }
+  small.json()["light"]["colour"] = {1, 1, 1};
+  small.json()["author"] = "me";
+  const Scene scene = read_scene(small.write());
+  EXPECT_EQ(scene.meshes[1].substitutes, "");
+  ASSERT_EQ(scene.remarks.size(), 1u);
+  EXPECT_EQ(scene.remarks[0].file.filename(), "scene.json");
+  const Remarks& remarks = scene.remarks[0].remarks;
+  ASSERT_EQ(remarks.size(), 3u);
+  EXPECT_EQ(remarks[0].what, "key 'author' of the scene is unknown and passed over");
+  EXPECT_EQ(remarks[1].what, "key 'colour' of light is unknown and passed over; is 'color' meant?");
+  EXPECT_EQ(remarks[2].what,
+            "key 'substitues' of a mesh is unknown and passed over; is 'substitutes' meant?");
+  EXPECT_EQ(remarks[2].count, 2u);
+  // One that is needed is an error, which says what stands there instead.
+  small.json()["objects"][1]["rotaton"] = small.json()["objects"][1]["rotation"];
+  small.json()["objects"][1].erase("rotation");
+  EXPECT_INPUT_ERROR(read_scene(small.write()),
+                     "objects[1]: has no \"rotation\"; is 'rotaton' it?");
+}
+
 TEST(Scene, DeepAndTruncatedJsonIsRefused) {
   SmallSceneFolder small;
   const std::string text = read_file(small.write());
