@@ -41,12 +41,23 @@ bool is_named(int fd, const fs::path& path) {
          open.st_ino == named.st_ino && open.st_dev == named.st_dev;
 }
 
+// A file of ours alone: what somebody else put there, or linked there, is not written into.
+bool is_lock_file(int fd) {
+  struct stat info {};
+  return ::fstat(fd, &info) == 0 && S_ISREG(info.st_mode) && info.st_nlink == 1 &&
+         info.st_size <= static_cast<off_t>(kMostTextBytes);
+}
+
 enum class Attempt { held, taken, again, no_locks };
 
 Attempt try_to_hold(int fd, const fs::path& path, const std::string& text) {
   const bool is_alone = ::flock(fd, LOCK_EX | LOCK_NB) == 0;
   if (!is_alone && errno != EWOULDBLOCK) return Attempt::no_locks;
   if (!is_named(fd, path)) return Attempt::again;
+  if (is_alone && !is_lock_file(fd)) {
+    ::unlink(path.c_str());
+    return Attempt::again;
+  }
   if (is_alone && !write_text(fd, text)) return Attempt::no_locks;
   if (::flock(fd, LOCK_SH | LOCK_NB) != 0) return Attempt::again;
   if (!is_named(fd, path)) return Attempt::again;  // between the two locks it is nobody's

@@ -99,8 +99,10 @@ std::set<std::string> picture_names(const fs::path& folder) {
   std::error_code error;
   std::set<std::string> names;
   for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error))
-    if (is_picture_name(it->path()) && !it->is_directory())
+    if (is_picture_name(it->path()) && !it->is_directory()) {
+      refuse_special(it->path());
       names.insert(it->path().filename().string());
+    }
   if (error) throw InputError(folder.string(), "", "cannot list: " + error.message());
   if (names.empty()) throw InputError(folder.string(), "", "has no pictures");
   return names;

@@ -165,6 +165,20 @@ TEST(FolderLock, AKilledHolderBindsNobody) {
   EXPECT_TRUE(fs::is_empty(folder.path()));
 }
 
+TEST(FolderLock, NothingIsWrittenIntoWhatSomebodyPutThere) {
+  const TemporaryFolder folder;
+  folder.add("victim", "precious");
+  fs::create_hard_link(folder / "victim", folder / ".viewcell-lock");
+  { const FolderLock lock(folder.path(), "test", "a"); }
+  fs::create_symlink("victim", folder / ".viewcell-lock");
+  EXPECT_THROW(FolderLock(folder.path(), "test", "a"), MachineError);
+  fs::remove(folder / ".viewcell-lock");
+  put_bytes(folder / ".viewcell-lock", std::string(1000, 'x'));
+  { const FolderLock lock(folder.path(), "test", "a"); }
+  EXPECT_EQ(read_file(folder / "victim"), "precious");
+  EXPECT_EQ(names_in(folder.path()), std::set<std::string>{"victim"});
+}
+
 // Never more than one content, whatever the order.
 TEST(FolderLock, ManyAtOnce) {
   const TemporaryFolder folder;

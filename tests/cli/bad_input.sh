@@ -161,6 +161,17 @@ fault 2 "--engine" "$bin/depthcap" park/scene.json cells.json --engine guess -o 
 fault 2 "--ts" "$bin/svmesh" park/scene.json cells.json captures --ts nan -o x
 fault 2 "--tl" "$bin/mvmesh" park/scene.json cells.json captures --tl=-1 -o x
 
+# --- misspelt keys: no error, but a word with what was meant; and what stands at a missing one ---
+sed 's/"up": "z"/"up": "z", "substitues": "x"/' park/scene.json >p/scene.json
+expect 0 "$bin/hexcells" p/scene.json -o "$log/x" --json "$log/report"
+grep -qF "hexcells: p/scene.json: key 'substitues' of a mesh is unknown and passed over; is 'substitutes' meant? (1)" \
+  "$log/err" || fail "a misspelt key: $(cat "$log/err")"
+says "$log/report" '.remarks[0].count == 1' || fail "no remark in the report"
+expect 0 "$bin/hexcells" p/scene.json -o "$log/x" -q
+[ ! -s "$log/err" ] || fail "a remark in spite of -q"
+sed 's/"up": "z"/"Up": "z"/' park/scene.json >p/scene.json
+fault 1 "p/scene.json: meshes[0]: has no \"up\"; is 'Up' it?" "$bin/hexcells" p/scene.json -o x
+
 # --- captures of something else ---
 sed 's/190, 140, 8/180, 140, 8/' park/scene.json >p/scene.json
 expect 0 "$bin/hexcells" p/scene.json --size 50 --eye-height 6:10 -o other.json
