@@ -59,7 +59,7 @@ class LogBuilder {
       : coarser_(make_finest(record)),
         finest_(describe_finest(coarser_)),
         is_adapted_(finest_.wedges.faces.size(), false),
-        mesh_(finest_.wedges.positions, finest_.triangles),
+        mesh_(finest_.wedges.positions, finest_.triangles, FaceCopies{}),
         table_(finest_.wedges),
         map_(mesh_, table_, finest_.wedges.positions, finest_.wedges.texcoords, Matching::nearest,
              {.texture = true}) {

@@ -12,6 +12,7 @@
 #include "mesh/closest_point.h"
 #include "mesh/offset.h"
 #include "mesh/surface_samples.h"
+#include "mesh/used_vertices.h"
 
 namespace viewcell {
 namespace {

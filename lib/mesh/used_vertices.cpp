@@ -30,6 +30,13 @@ UsedVertices find_used_vertices(std::span<const Triangle> triangles, std::size_t
   return out;
 }
 
+Box surface_box(const TriMesh& mesh) {
+  Box box;
+  for (const Triangle& t : mesh.triangles)
+    for (const std::uint32_t v : t) box.add(mesh.positions[v]);
+  return box;
+}
+
 CompactMesh compact(const TriMesh& mesh, std::span<const Triangle> triangles) {
   UsedVertices used = find_used_vertices(triangles, mesh.positions.size());
   CompactMesh out;

@@ -32,6 +32,9 @@ struct UsedVertices {
 UsedVertices find_used_vertices(std::span<const Triangle> triangles, std::size_t n_vertices,
                                 VertexOrder order = VertexOrder::old);
 
+/// The box around them; empty when there is none.
+Box surface_box(const TriMesh& mesh);
+
 struct CompactMesh {
   TriMesh mesh;                              ///< positions, and normals and colours where given
   std::vector<std::uint32_t> source_vertex;  ///< of each vertex, its number in the input

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "mesh/topology.h"
+#include "mesh/used_vertices.h"
 
 namespace viewcell {
 namespace {
@@ -136,10 +137,7 @@ class WeldCells {
 }  // namespace
 
 double default_weld_tolerance(const TriMesh& mesh) {
-  Box box;
-  for (const Triangle& t : mesh.triangles)
-    for (const std::uint32_t v : t) box.add(mesh.positions[v]);
-  return mesh.triangles.empty() ? 0 : kWeldShare * glm::length(box.size());
+  return mesh.triangles.empty() ? 0 : kWeldShare * glm::length(surface_box(mesh).size());
 }
 
 BorderWeld weld_borders(std::span<const glm::vec3> positions, std::span<const Triangle> triangles,

@@ -38,45 +38,61 @@ float unit_scale(std::span<const glm::vec3> positions) {
   return std::ldexp(1.0f, -std::clamp(std::ilogb(longest), -126, 126));
 }
 
+// Of lengths: as metrics see them and as the input has them.
+struct Units {
+  float scale = 1;  // positions are the input's times this
+  float gap = 0;    // how far welding has moved vertices, in the input's units
+  float in_metric(float length) const { return length * scale; }
+  float in_input(float length) const { return length / scale; }
+};
+
 // Runs the loop in slices, for the progress.
 template <typename Metric>
 CollapseCounts collapse_all(CollapseMesh& mesh, Metric& metric, Recorder& recorder,
-                            CollapseBound* guard, ChartGuard* charts, float scale,
+                            CollapseBound* guard, ChartGuard* charts, const Units& units,
                             const BuildOptions& options, const Progress& progress) {
   constexpr std::size_t kSlices = 100;
-  RecordedMetric<Metric> recorded{
-      mesh,  metric, recorder, guard, options.error_bound * scale, texture_needs(options).no_folds,
-      charts};
+  RecordedMetric<Metric> recorded{mesh,
+                                  metric,
+                                  recorder,
+                                  guard,
+                                  units.in_metric(options.error_bound - units.gap),
+                                  texture_needs(options).no_folds,
+                                  charts};
   CollapseLoop loop(mesh, recorded);
   const std::size_t start = mesh.n_triangles();
   const std::size_t span = start - std::min(start, std::max<std::size_t>(options.target_faces, 1));
   CollapseCounts total;
   const auto made = [&](std::uint32_t u, std::uint32_t v, float cost, const CollapseTrace& trace) {
     const float error = recorded.error();
-    recorder.made(u, v, cost / scale, error < 0 ? error : error / scale, trace);
+    recorder.made(u, v, units.in_input(cost), error < 0 ? error : units.in_input(error) + units.gap,
+                  trace);
   };
   for (std::size_t slice = 1; slice <= kSlices; ++slice) {
     const std::size_t target = start - span * slice / kSlices;
     if (mesh.n_triangles() <= target && slice < kSlices) continue;
     const CollapseCounts counts = loop.run({.target_triangles = target,
-                                            .max_cost = options.max_cost * scale,
+                                            .max_cost = units.in_metric(options.max_cost),
                                             .min_cosine = options.min_cosine,
                                             .lazy = options.lazy},
                                            made);
     total.n_collapses += counts.n_collapses;
     total.n_costs += counts.n_costs;
+    total.n_visited = counts.n_visited;
     for (std::size_t i = 0; i < counts.n_refused.size(); ++i)
       total.n_refused[i] += counts.n_refused[i];
-    total.last_cost = std::max(total.last_cost, counts.last_cost / scale);
+    total.last_cost = std::max(total.last_cost, units.in_input(counts.last_cost));
     if (progress) progress(slice, kSlices);
     if (mesh.n_triangles() > target) break;  // nothing more can go
   }
   return total;
 }
 
+// triangles: without copies.
 CollapseCounts run_metric(CollapseMesh& mesh, WedgeMesh& wedges,
-                          const std::vector<Triangle>& triangles, Recorder& recorder, float scale,
-                          const BuildOptions& options, const Progress& progress) {
+                          const std::vector<Triangle>& triangles, Recorder& recorder,
+                          const Units& units, const BuildOptions& options,
+                          const Progress& progress) {
   std::span<glm::vec3> positions = wedges.positions;
   std::optional<CollapseBound> guard;
   if (options.track_error || std::isfinite(options.error_bound))
@@ -86,7 +102,7 @@ CollapseCounts run_metric(CollapseMesh& mesh, WedgeMesh& wedges,
     charts.emplace(wedges, options.charts_apart_px);
   const auto run = [&](auto&& metric) {
     return collapse_all(mesh, metric, recorder, guard ? &*guard : nullptr,
-                        charts ? &*charts : nullptr, scale, options, progress);
+                        charts ? &*charts : nullptr, units, options, progress);
   };
   if (options.metric == MetricKind::mapping && options.placement == Placement::full) {
     if (options.measure == Measure::mean)
@@ -102,16 +118,37 @@ CollapseCounts run_metric(CollapseMesh& mesh, WedgeMesh& wedges,
          .total = options.total_error,
          .measure = options.measure}));
   if (options.metric == MetricKind::qem5 && options.placement == Placement::full)
-    return run(TextureQemFullMetric(mesh, wedges, recorder.table(), positions, recorder.texcoords(),
-                                    {options.qem, options.texture_weight}));
+    return run(TextureQemFullMetric(mesh, wedges, recorder.table(), positions, triangles,
+                                    recorder.texcoords(), {options.qem, options.texture_weight}));
   if (options.metric == MetricKind::qem5)
-    return run(TextureQemMetric(mesh, wedges, recorder.table(), positions,
+    return run(TextureQemMetric(mesh, wedges, recorder.table(), positions, triangles,
                                 {options.qem, options.texture_weight}));
   if (options.metric == MetricKind::lt)
     return run(LindstromTurkMetric(mesh, positions, options.lt));
   if (options.placement == Placement::full)
     return run(QemFullMetric(positions, triangles, options.qem));
   return run(QemMetric(positions, triangles, options.qem));
+}
+
+PieceCounts count_pieces(const std::vector<Triangle>& triangles, std::size_t n_vertices) {
+  const Charts pieces = connect_charts(triangles, n_vertices, ChartLink::corner);
+  std::vector<std::size_t> sizes(pieces.size(), 0);
+  for (const std::uint32_t piece : pieces.of) ++sizes[piece];
+  PieceCounts out{pieces.size()};
+  for (const std::size_t n : sizes)
+    if (n <= PieceCounts::kMostSmall) ++out.n_small, out.n_in_small += n;
+  return out;
+}
+
+WeldOptions weld_options(const TriMesh& mesh, const BuildOptions& options) {
+  if (!options.weld_tolerance) return {.tolerance = default_weld_tolerance(mesh)};
+  return {*options.weld_tolerance, std::numeric_limits<double>::infinity()};
+}
+
+// A float that is not below it.
+float round_up(double x) {
+  const auto out = static_cast<float>(x);
+  return out < x ? std::nextafter(out, std::numeric_limits<float>::infinity()) : out;
 }
 
 void check_options(const TriMesh& mesh, const BuildOptions& options) {
@@ -161,19 +198,25 @@ TextureNeeds texture_needs(const BuildOptions& options) {
 BuildResult build_progressive_mesh(const TriMesh& mesh, const BuildOptions& options,
                                    const Progress& progress) {
   check_options(mesh, options);
-  WedgeMesh wedges = make_wedges(mesh, true);
+  const WeldOptions weld = weld_options(mesh, options);
+  WedgeMesh wedges = make_wedges(mesh, {.along_curve = true, .weld = weld});
   if (wedges.faces.empty())
     throw InputError(options.name, "", "has no triangle with three different corners");
-  const float scale = unit_scale(wedges.positions);
-  for (glm::vec3& p : wedges.positions) p *= scale;
-  const std::vector<Triangle> triangles = wedges.vertex_triangles();
-  CollapseMesh work(wedges.positions, triangles);
-  Recorder recorder(wedges, mesh, scale, options.placement == Placement::full);
+  const Units units{unit_scale(wedges.positions), round_up(wedges.apart.gap)};
+  for (glm::vec3& p : wedges.positions) p *= units.scale;
+  std::vector<Triangle> triangles = wedges.vertex_triangles();
+  const FaceCopies copies = find_face_copies(triangles, wedges.positions.size());
+  CollapseMesh work(wedges.positions, triangles, copies);
+  Recorder recorder(wedges, mesh, units.scale, options.placement == Placement::full);
   BuildResult result;
-  result.counts = run_metric(work, wedges, triangles, recorder, scale, options, progress);
+  result.pieces = count_pieces(triangles, wedges.positions.size());
+  triangles = without_copies(std::move(triangles), copies);
+  result.counts = run_metric(work, wedges, triangles, recorder, units, options, progress);
   result.record = recorder.finish();
   result.n_welded = wedges.n_welded;
   result.n_dropped = wedges.n_dropped;
+  result.weld_tolerance = weld.tolerance;
+  result.welded_apart = wedges.apart;
   return result;
 }
 

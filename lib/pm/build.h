@@ -2,6 +2,7 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <string>
 
 #include "base/parallel.h"
@@ -25,11 +26,14 @@ const char* placement_name(Placement placement);
 struct BuildOptions {
   std::string name = "mesh";  ///< for errors: the file
   MetricKind metric = MetricKind::qem3;
-  Placement placement = Placement::half;                    ///< lt needs full
+  Placement placement = Placement::half;  ///< lt needs full
+  /// Vertices of borders up to so far apart are one, mesh units (mesh/weld.h). Nothing:
+  /// default_weld_tolerance(), and no triangle loses a corner by it.
+  std::optional<double> weld_tolerance;
   std::size_t target_faces = 1;                             ///< stop at or below; at least 1
   float max_cost = std::numeric_limits<float>::infinity();  ///< of a collapse, the metric's unit
   /// Collapses after which the surface might be farther than this from the input, or the input from
-  /// it, are refused; mesh units.
+  /// it, are refused; mesh units. What welding moved counts.
   float error_bound = std::numeric_limits<float>::infinity();
   /// Every level knows its error(), whatever the metric. Levels of aps and mapping do (total, max),
   /// and those of an error bound.
@@ -57,11 +61,21 @@ struct TextureNeeds {
 };
 TextureNeeds texture_needs(const BuildOptions& options);
 
+/// Parts that neither edges nor vertices join. Collapses never join them.
+struct PieceCounts {
+  static constexpr std::size_t kMostSmall = 4;
+  std::size_t n = 0;
+  std::size_t n_small = 0, n_in_small = 0;  ///< those of at most kMostSmall faces; faces in them
+};
+
 struct BuildResult {
   ProgressiveRecord record;  ///< made_by is left empty
   CollapseCounts counts;
   std::size_t n_welded = 0;   ///< vertices at the position of an earlier one
   std::size_t n_dropped = 0;  ///< faces with two corners at one position, left out
+  double weld_tolerance = 0;  ///< as used
+  BorderWeld welded_apart;    ///< vertices not at the position of the one that they are welded to
+  PieceCounts pieces;         ///< of the input, welded
 };
 
 /// Throws InputError when the metric needs what the mesh has not, UsageError for a metric that has

@@ -25,7 +25,8 @@ struct CollapseLimits {
 
 struct CollapseCounts {
   std::size_t n_collapses = 0;
-  std::size_t n_costs = 0;                             ///< evaluations of the metric
+  std::size_t n_costs = 0;      ///< evaluations of the metric
+  std::uint64_t n_visited = 0;  ///< triangles gone through around vertices, since the mesh was made
   std::array<std::size_t, kRefusalKinds> n_refused{};  ///< by Refusal
   float last_cost = 0;                                 ///< the highest cost of a collapse made
 };
@@ -52,6 +53,8 @@ inline Refusal as_refusal(Refusal refusal) {
 ///   without it, the lower one is;
 /// - bool stays(), if there is one: whether v must keep its position in the collapse of the last
 ///   optimal_position();
+/// - float cost_at(u, v, position): of going to another place; where v is a hub and stays, it must
+///   not look at all of its triangles. Not needed where cost() and stays() know of hubs;
 /// - void collapsed(u, v, position): moves v.
 /// Metric::kReach (1 where there is none): 1 when a collapse u -> v changes costs of pairs with v
 /// only; 2 when it changes those of every vertex around v.
@@ -59,6 +62,10 @@ inline Refusal as_refusal(Refusal refusal) {
 /// Collapses in order of cost, one candidate a vertex (its cheapest legal target) in an indexed
 /// heap [Chen06 4]. An illegal candidate is replaced by the vertex's next best, or parked until its
 /// surroundings change; it does not end the loop (in the paper it does).
+///
+/// Hubs (kHubTriangles) stay as long as they are hubs: others collapse into them, at a cost that is
+/// looked at again when it comes up, for what a collapse changes there is near its own star alone.
+/// So the work is in proportion to the triangles that change, whatever stars they are in.
 template <typename Metric>
 class CollapseLoop {
  public:
@@ -82,24 +89,25 @@ class CollapseLoop {
     while (mesh_.n_triangles() > limits.target_triangles && !heap_.empty()) {
       const std::uint32_t u = heap_.top(), v = target_[u];
       fetch_next();
-      if (stale_[u] || (kReach > 1 && kHasPlacement && metric_cost(u, v) > heap_.key(u))) {
+      float cost = heap_.key(u);
+      if (stale_[u] || has_risen(u, v, limits.max_cost, cost)) {
         choose(u);
         continue;
       }
-      if (heap_.key(u) > limits.max_cost) break;
+      if (cost > limits.max_cost) break;
       const Refusal refusal = check(u, v, limits);
       if (refusal != Refusal::none) {
         ++counts.n_refused[static_cast<std::size_t>(refusal)];
         choose_legal(u, limits);
         continue;
       }
-      const float cost = heap_.key(u);
       counts.last_cost = std::max(counts.last_cost, cost);
       ++counts.n_collapses;
       make(u, v, limits.lazy);
       made(u, v, cost, trace_);
     }
     counts.n_costs = std::exchange(n_costs_, 0);
+    counts.n_visited = mesh_.lists().n_visited();
     return counts;
   }
 
@@ -127,26 +135,50 @@ class CollapseLoop {
     return static_cast<std::uint32_t>(mesh.n_vertices());
   }
 
-  // A full-edge collapse is the same from both ends: the edge is a candidate of its lower one only.
+  // Whether the cost is more than the heap has, and nobody has said so. Of a hub with each collapse
+  // into it: a little more is let pass, or all others beside it would be looked at between any two.
+  bool has_risen(std::uint32_t u, std::uint32_t v, float max_cost, float& cost) {
+    constexpr float kLittle = 1.125f;
+    if (!mesh_.is_hub(v)) return kReach > 1 && kHasPlacement && metric_cost(u, v) > cost;
+    const float before = std::exchange(cost, metric_cost(u, v));
+    return cost > kLittle * before || (cost > max_cost && before <= max_cost);
+  }
+
+  // A full-edge collapse is the same from both ends: the edge is a candidate of its lower one only,
+  // unless that is a hub.
   bool is_candidate(std::uint32_t u, std::uint32_t v) {
     if constexpr (requires { metric_.may_collapse(u, v); }) return metric_.may_collapse(u, v);
-    return !kHasPlacement || u < v;
+    return !kHasPlacement || u < v || mesh_.is_hub(v);
   }
 
   float metric_cost(std::uint32_t u, std::uint32_t v) {
     ++n_costs_;
-    const float cost = metric_.cost(u, v);
+    const float cost = cost_of(u, v);
     return cost < kNever ? cost : kNever;  // NaN is never, too
+  }
+  float cost_of(std::uint32_t u, std::uint32_t v) {
+    if constexpr (kHasPlacement && requires { metric_.cost_at(u, v, position_); })
+      if (mesh_.is_hub(v)) return metric_.cost_at(u, v, mesh_.position(v));
+    return metric_.cost(u, v);
+  }
+
+  // Sets position_; whether v keeps its own.
+  bool place(std::uint32_t u, std::uint32_t v) {
+    if constexpr (requires { metric_.stays(); }) {
+      position_ = metric_.optimal_position(u, v);
+      return metric_.stays();
+    } else {
+      const bool stays = mesh_.is_hub(v);
+      position_ = stays ? mesh_.position(v) : metric_.optimal_position(u, v);
+      return stays;
+    }
   }
 
   Refusal check(std::uint32_t u, std::uint32_t v, const CollapseLimits& limits) {
     Refusal refusal;
     if constexpr (kHasPlacement) {
-      position_ = metric_.optimal_position(u, v);
-      bool stays = false;
-      if constexpr (requires { metric_.stays(); }) stays = metric_.stays();
-      refusal = stays ? mesh_.check(u, v, limits.min_cosine)
-                      : mesh_.check(u, v, position_, limits.min_cosine);
+      refusal = place(u, v) ? mesh_.check(u, v, limits.min_cosine)
+                            : mesh_.check(u, v, position_, limits.min_cosine);
     } else {
       refusal = mesh_.check(u, v, limits.min_cosine);
     }
@@ -158,24 +190,27 @@ class CollapseLoop {
   void fetch_next() const {
     const auto [first, second, third, fourth, fifth] = heap_.next();
     if (fifth == IndexedHeap::kNone) return;
-    mesh_.fetch_star(fifth);
+    const CornerLists& lists = mesh_.lists();
+    lists.fetch_star(fifth);
     __builtin_prefetch(&target_[fifth]);
-    mesh_.fetch_corners(fourth);
-    mesh_.fetch_star(target_[fourth]);
+    lists.fetch(fourth);
+    lists.fetch_star(target_[fourth]);
     mesh_.fetch_triangles(third);
-    mesh_.fetch_corners(target_[third]);
-    mesh_.fetch_triangles(target_[second]);
+    lists.fetch(target_[third]);
+    if (!mesh_.is_hub(target_[second])) mesh_.fetch_triangles(target_[second]);
     if constexpr (requires { metric_.fetch(0u); }) {
       const auto fetch = [&](std::uint32_t a, std::uint32_t) { metric_.fetch(a); };
       mesh_.for_each_triangle(first, fetch);
-      if (!stale_[first]) mesh_.for_each_triangle(target_[first], fetch);
+      if (!stale_[first] && !mesh_.is_hub(target_[first]))
+        mesh_.for_each_triangle(target_[first], fetch);
     }
   }
 
   // The targets of u, with the least that each can cost.
   void gather_candidates(std::uint32_t u) {
-    mesh_.ring(u, ring_);
     candidates_.clear();
+    if (mesh_.is_hub(u)) return;
+    mesh_.ring(u, ring_);
     for (const std::uint32_t v : ring_) {
       if (!is_candidate(u, v)) continue;
       if constexpr (kEstimates)
@@ -223,6 +258,8 @@ class CollapseLoop {
   }
 
   void make(std::uint32_t u, std::uint32_t v, bool lazy) {
+    const bool into_hub = mesh_.is_hub(v);
+    if (into_hub) mesh_.ring(u, around_);  // v stays, and the rest of its star is as it was
     mesh_.collapse(u, v, &trace_);
     if constexpr (requires { metric_.traced(u, v, trace_); }) metric_.traced(u, v, trace_);
     if constexpr (kHasPlacement)
@@ -231,18 +268,25 @@ class CollapseLoop {
       metric_.collapsed(u, v);
     heap_.erase(u);
     choose(v);
-    mesh_.ring(v, around_);
-    for (const std::uint32_t w : around_) {
-      if (lazy && heap_.contains(w))
-        stale_[w] = true;
-      else if (kReach > 1)
-        choose(w);
-      else
-        update(w, u, v);
+    if (!into_hub) mesh_.ring(v, around_);
+    for (const std::uint32_t w : around_) revise(w, u, v, lazy, into_hub || kReach > 1);
+    for (const std::uint32_t hub : mesh_.lists().shrunk()) {
+      choose(hub);
+      mesh_.ring(hub, around_);
+      for (const std::uint32_t w : around_) revise(w, u, v, lazy, true);
     }
   }
 
-  // After u -> v beside w: only w's costs towards u and v have changed.
+  // Costs of w have changed: all of them, or those towards u and v.
+  void revise(std::uint32_t w, std::uint32_t u, std::uint32_t v, bool lazy, bool all) {
+    if (lazy && heap_.contains(w))
+      stale_[w] = true;
+    else if (all)
+      choose(w);
+    else
+      update(w, u, v);
+  }
+
   void update(std::uint32_t w, std::uint32_t u, std::uint32_t v) {
     if (!heap_.contains(w) || target_[w] == u || target_[w] == v) return choose(w);
     if (!is_candidate(w, v)) return;

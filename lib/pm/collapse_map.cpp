@@ -194,19 +194,27 @@ void CollapseMap::build_sector(const Sector& sector, const Location& location) {
   if (sector.is_closed) overlay_.add_side(n, false, n - 1 - m, apex, location.after);
 }
 
+// A face at the edge a b that has not the vertex `but`.
+bool CollapseMap::find_face_at(std::uint32_t a, std::uint32_t b, std::uint32_t but,
+                               std::uint32_t& face) const {
+  if (mesh_.is_hub(a) && mesh_.n_sheet_triangles(b) < mesh_.n_sheet_triangles(a)) std::swap(a, b);
+  const std::uint32_t found = mesh_.lists().find(a, [&](std::uint32_t c) {
+    const std::uint32_t t = 3 * (c / 3);
+    const std::uint32_t x = mesh_.vertex_at(t + (c + 1 - t) % 3);
+    const std::uint32_t y = mesh_.vertex_at(t + (c + 2 - t) % 3);
+    return x != but && y != but && (x == b || y == b);
+  });
+  face = found / 3;
+  return found != CornerLists::kNone;
+}
+
 // A triangle that is alone in its sector vanishes but for an edge: some face at that edge inherits
 // its surface.
 bool CollapseMap::build_vanishing(const Sector& sector, const Location& location, std::uint32_t v) {
   const Walk rim{sector, location.v, location.step};
   const std::uint32_t u = star_.of(), far = rim[1].vertex;
   std::uint32_t inheriting_face = 0;
-  bool found = false;
-  mesh_.for_each_corner(v, [&](std::uint32_t c) {
-    const std::uint32_t t = 3 * (c / 3), a = t + (c + 1 - t) % 3, b = t + (c + 2 - t) % 3;
-    const std::uint32_t va = mesh_.vertex_at(a), vb = mesh_.vertex_at(b);
-    if (va != u && vb != u && (va == far || vb == far)) inheriting_face = c / 3, found = true;
-  });
-  if (!found) return false;
+  if (!find_face_at(v, far, u, inheriting_face)) return false;
   const std::uint32_t to = star_.index_of(inheriting_face);
   const FanPoint apex{location.apex, rim[0].uv};
   overlay_.start(apex, sector.origin, location.step < 0);

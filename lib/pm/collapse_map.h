@@ -103,6 +103,7 @@ class CollapseMap {
   void choose_on_edge(const Sector& sector, Location& location) const;
   bool build_located(std::uint32_t v);
   void build_sector(const Sector& sector, const Location& location);
+  bool find_face_at(std::uint32_t a, std::uint32_t b, std::uint32_t but, std::uint32_t& face) const;
   bool build_vanishing(const Sector& sector, const Location& location, std::uint32_t v);
   FanPoint point_on(const FanPoint& top, const CollapseStar::Rim& b, const CollapseStar::Rim& c,
                     const glm::dvec3& at) const;

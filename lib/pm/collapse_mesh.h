@@ -9,8 +9,11 @@
 
 #include "base/large_vector.h"
 #include "mesh/mesh.h"
-#include "pm/fan.h"
+#include "pm/corner_lists.h"
+#include "pm/face_copies.h"
+#include "pm/hub_links.h"
 #include "pm/refusal.h"
+#include "pm/star_check.h"
 
 namespace viewcell {
 
@@ -20,58 +23,77 @@ struct CollapseTrace {
   std::vector<std::uint32_t> moved;  ///< corners (3 * triangle + k) that went from u to v
 };
 
-/// Triangles over vertices; a corner c = 3 * triangle + k, and the corners of each vertex stand one
-/// after another in one array. Memory: 27 bytes a triangle, 8 a vertex, and the positions that it
-/// refers to.
+/// Triangles over vertices; a corner c = 3 * triangle + k. Faces over the same three vertices are
+/// one sheet (FaceCopies): the first stands for all in what is asked of the surface, and its copies
+/// follow it. Memory: 27 bytes a triangle, 8 a vertex, and the positions that it refers to.
 class CollapseMesh {
  public:
   /// Keeps a reference to positions. Triangles with a repeated index are dropped at once. Positions
   /// may be changed by their owner between calls.
-  CollapseMesh(std::span<const glm::vec3> positions, std::span<const Triangle> triangles);
+  CollapseMesh(std::span<const glm::vec3> positions, std::span<const Triangle> triangles)
+      : CollapseMesh(positions, triangles, find_face_copies(triangles, positions.size())) {}
+  /// Copies found already; none: every face is for itself.
+  CollapseMesh(std::span<const glm::vec3> positions, std::span<const Triangle> triangles,
+               FaceCopies copies);
 
-  std::size_t n_vertices() const { return stars_.size(); }
+  std::size_t n_vertices() const { return lists_.n_vertices(); }
   std::size_t n_triangles() const { return n_triangles_; }
+  std::size_t n_sheet_triangles() const { return n_sheet_; }  ///< without copies
+  std::size_t n_sheet_triangles(std::uint32_t v) const { return lists_.count(v); }
   const glm::vec3& position(std::uint32_t v) const { return positions_[v]; }
-  bool has_triangles(std::uint32_t v) const { return stars_[v].n > 0; }
+  bool has_triangles(std::uint32_t v) const { return lists_.count(v) > 0; }
   /// The vertex at a corner of a live triangle, or of one that died, when it did.
   std::uint32_t vertex_at(std::uint32_t corner) const { return vertices_[corner]; }
 
-  /// Calls visit(a, b) for every triangle (v, a, b) of v, in that winding.
+  /// Calls visit(a, b) for every triangle (v, a, b) of v, in that winding; not for copies.
   template <typename Visit>
   void for_each_triangle(std::uint32_t v, Visit&& visit) const {
-    for (const std::uint32_t c : corners(v)) {
+    for (const std::uint32_t c : lists_.visit(v)) {
       const std::uint32_t k = c % 3;
       visit(vertices_[c + 1 - 3 * (k == 2)], vertices_[c - 1 + 3 * (k == 0)]);
     }
   }
-  /// Calls visit(corner) for every corner of v.
+  /// Calls visit(corner) for every corner of v, but those of copies.
+  template <typename Visit>
+  void for_each_sheet_corner(std::uint32_t v, Visit&& visit) const {
+    for (const std::uint32_t c : lists_.visit(v)) visit(c);
+  }
+  /// Those of copies too.
   template <typename Visit>
   void for_each_corner(std::uint32_t v, Visit&& visit) const {
-    for (const std::uint32_t c : corners(v)) visit(c);
+    for (const std::uint32_t c : lists_.visit(v)) {
+      visit(c);
+      if (!copies_.empty()) for_each_copy(c / 3, [&](std::uint32_t t) { visit(corner_at(t, v)); });
+    }
   }
+  bool has_copies() const { return !copies_.empty(); }
+  /// Of copies nothing: they stand in no list.
+  const CornerLists& lists() const { return lists_; }
+  const HubLinks& hub_links() const { return links_; }
+  bool is_hub(std::uint32_t v) const { return lists_.is_hub(v); }  ///< see kHubTriangles
 
-  /// Prefetches for a visit of v's triangles, in three stages: each reads what the one before has
-  /// fetched.
-  void fetch_star(std::uint32_t v) const { __builtin_prefetch(&stars_[v]); }
-  void fetch_corners(std::uint32_t v) const {
-    __builtin_prefetch(corners(v).data());
-    __builtin_prefetch(corners(v).data() + stars_[v].n);
-  }
+  /// Prefetches for a visit of v's triangles, after those of lists(): each reads what the one
+  /// before has fetched.
   void fetch_triangles(std::uint32_t v) const {
-    for (const std::uint32_t c : corners(v)) __builtin_prefetch(&vertices_[c]);
+    for (const std::uint32_t c : lists_.visit(v)) __builtin_prefetch(&vertices_[c]);
   }
 
   /// The vertices joined to v by an edge, each once, in an order that depends on the history only.
-  void ring(std::uint32_t v, std::vector<std::uint32_t>& out);
+  void ring(std::uint32_t v, std::vector<std::uint32_t>& out) { check_.ring(*this, v, out); }
 
   /// Whether the half-edge collapse u -> v keeps the surface's topology (the link condition),
   /// moves a boundary vertex along its boundary only, and turns no triangle's normal by more than
-  /// acos(min_cosine) nor makes one of no area. A triangle on its own may vanish.
+  /// acos(min_cosine) nor makes one of no area. A triangle on its own may vanish, unless it is the
+  /// last. O(triangles of both); where v is a hub and u is not, of u and its neighbours but hubs.
   /// Not thread-safe (scratch lists).
-  Refusal check(std::uint32_t u, std::uint32_t v, float min_cosine);
+  Refusal check(std::uint32_t u, std::uint32_t v, float min_cosine) {
+    return check_.check(*this, u, v, min_cosine);
+  }
   /// The same for the full-edge collapse of u and v into `position`: both vertices move, and an
   /// edge from boundary to boundary through the inside is refused.
-  Refusal check(std::uint32_t u, std::uint32_t v, const glm::vec3& position, float min_cosine);
+  Refusal check(std::uint32_t u, std::uint32_t v, const glm::vec3& position, float min_cosine) {
+    return check_.check(*this, u, v, position, min_cosine);
+  }
 
   /// Collapses u into v: triangles with both die, the others of u get v instead. trace: set to
   /// what was done.
@@ -79,34 +101,30 @@ class CollapseMesh {
   /// Whether u and v are corners of a triangle that stands alone: their collapse would be its end.
   bool is_lone_triangle(std::uint32_t u, std::uint32_t v) const;
   /// Whether some edge of v has exactly one triangle. Not thread-safe.
-  bool is_on_boundary(std::uint32_t v);
+  bool is_on_boundary(std::uint32_t v) { return check_.is_on_boundary(*this, v); }
   /// The live triangles, in the order of the input, and their numbers there.
   std::vector<Triangle> triangles() const;
   std::vector<std::uint32_t> triangle_numbers() const;
 
  private:
-  // Where the corners of a vertex stand.
-  struct Star {
-    std::uint32_t first = 0, n = 0;
-  };
-  std::span<const std::uint32_t> corners(std::uint32_t v) const {
-    return {corners_.data() + stars_[v].first, stars_[v].n};
+  std::uint32_t corner_at(std::uint32_t t, std::uint32_t v) const {
+    return 3 * t + (vertices_[3 * t] == v ? 0 : vertices_[3 * t + 1] == v ? 1 : 2);
   }
-  void gather(std::uint32_t v, Fan& fan) const;
-  void unlink(std::uint32_t v, std::uint32_t corner);
-  void make_room(std::size_t n);
-  bool keeps_topology(const Fan& of_u, std::uint32_t u, std::uint32_t v, bool& is_boundary_edge);
-  Refusal check_move(const Fan& fan, std::uint32_t from, std::uint32_t other, const glm::vec3& to,
-                     float min_cosine) const;
+  template <typename Visit>
+  void for_each_copy(std::uint32_t t, Visit&& visit) const {
+    for (t = copies_.next[t]; t != kNoCopy; t = copies_.next[t]) visit(t);
+  }
+  void kill(std::uint32_t corner, CollapseTrace* trace);
+  void move(std::uint32_t corner, std::uint32_t v, CollapseTrace* trace);
+  void set_hub(std::uint32_t v, bool is_hub);
 
   std::span<const glm::vec3> positions_;
   LargeVector<std::uint32_t> vertices_;  // 3 a triangle
-  std::vector<bool> alive_;              // by triangle
-  LargeVector<Star> stars_;              // by vertex
-  LargeVector<std::uint32_t> corners_;   // of all vertices; new lists stand at the end
-  Fan fan_u_, fan_v_;                    // scratch
-  std::vector<std::uint32_t> opposite_;  // scratch
-  std::size_t n_triangles_ = 0;
+  FaceCopies copies_;
+  CornerLists lists_;
+  HubLinks links_;
+  StarCheck check_;
+  std::size_t n_triangles_ = 0, n_sheet_ = 0;
 };
 
 }  // namespace viewcell

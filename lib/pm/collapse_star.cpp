@@ -9,7 +9,7 @@ bool CollapseStar::gather(std::uint32_t u) {
   of_ = u;
   is_legal_ = has_seam_end_ = false;
   spokes_.clear(), rim_.clear(), sectors_.clear(), faces_.clear();
-  mesh_.for_each_corner(u, [&](std::uint32_t c) {
+  mesh_.for_each_sheet_corner(u, [&](std::uint32_t c) {
     const std::uint32_t t = 3 * (c / 3), a = t + (c + 1 - t) % 3, b = t + (c + 2 - t) % 3;
     const std::uint32_t wedge = wedges_.at(c);
     spokes_.push_back({c / 3, mesh_.vertex_at(a), mesh_.vertex_at(b),

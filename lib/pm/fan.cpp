@@ -7,6 +7,8 @@ namespace viewcell {
 namespace {
 
 constexpr std::size_t kLanes = 8;
+// Longer fans are sorted.
+constexpr std::size_t kMostCompared = 128;
 constexpr std::uint32_t kNoVertex = 0xffffffffu;
 // Numbers that one instruction compares (of GCC and Clang).
 using Lanes [[gnu::vector_size(kLanes * sizeof(std::uint32_t))]] = std::uint32_t;
@@ -23,6 +25,12 @@ bool match_once(const std::uint32_t* values, const std::uint32_t* others, std::s
   return (any[0] | any[1] | any[2] | any[3]) == 0;
 }
 
+std::vector<std::uint32_t> sorted(std::span<const std::uint32_t> values) {
+  std::vector<std::uint32_t> out(values.begin(), values.end());
+  std::sort(out.begin(), out.end());
+  return out;
+}
+
 }  // namespace
 
 void Fan::resize(std::size_t n) {
@@ -33,6 +41,10 @@ void Fan::resize(std::size_t n) {
 }
 
 bool Fan::is_closed() const {
+  if (n_ > kMostCompared) {
+    const auto all_a = sorted(a()), all_b = sorted(b());
+    return all_a == all_b && std::adjacent_find(all_a.begin(), all_a.end()) == all_a.end();
+  }
   const auto all_once = [this](const auto& x, const auto& y) {
     for (std::size_t i = 0; i < n_; i += kLanes)
       if (!match_once(&x[i], y.data(), n_)) return false;
@@ -44,6 +56,16 @@ bool Fan::is_closed() const {
 // Each triangle (v, a, b) has the edges v-a and v-b, so an edge with two triangles is met twice.
 bool Fan::has_odd_edge() const {
   if (is_closed()) return false;
+  if (n_ > kMostCompared) {
+    std::vector<std::uint32_t> all = sorted(a()), all_b = sorted(b());
+    all.insert(all.end(), all_b.begin(), all_b.end());
+    std::sort(all.begin(), all.end());
+    for (auto first = all.begin(), last = first; first != all.end(); first = last) {
+      last = std::upper_bound(first, all.end(), *first);
+      if ((last - first) % 2 == 1) return true;
+    }
+    return false;
+  }
   const auto n_times = [this](std::uint32_t x) {
     const auto all_a = a(), all_b = b();
     return std::count(all_a.begin(), all_a.end(), x) + std::count(all_b.begin(), all_b.end(), x);

@@ -161,27 +161,26 @@ LindstromTurkMetric::Sums LindstromTurkMetric::sum_triangles(std::uint32_t u, st
   return sums;
 }
 
-// The boundary edges with an end at u or v, relative to u.
-void LindstromTurkMetric::gather_boundary(std::uint32_t u, std::uint32_t v, Sums& sums) {
-  for (const std::uint32_t w : {u, v}) {
-    edges_.clear();
-    others_.clear();
-    mesh_.for_each_triangle(w, [&](std::uint32_t a, std::uint32_t b) {
-      edges_.push_back({w, a});
-      edges_.push_back({b, w});
-      others_.insert(others_.end(), {a, b});
-    });
-    std::sort(others_.begin(), others_.end());
-    for (const Edge& edge : edges_) {
-      const std::uint32_t other = edge.a == w ? edge.b : edge.a;
-      const auto uses = std::equal_range(others_.begin(), others_.end(), other);
-      if (uses.second - uses.first != 1 || (w == v && other == u)) continue;
-      const glm::dvec3 a = between(u, edge.a), b = between(u, edge.b);
-      sums.has_boundary = true;
-      sums.along += b - a;
-      sums.twist += glm::cross(a, b);
-      sums.boundary.add_cross(b - a, glm::cross(a, b));
-    }
+// The boundary edges with an end at w and the other not at `but`, relative to u.
+void LindstromTurkMetric::gather_boundary(std::uint32_t u, std::uint32_t w, std::uint32_t but,
+                                          Sums& sums) {
+  edges_.clear();
+  others_.clear();
+  mesh_.for_each_triangle(w, [&](std::uint32_t a, std::uint32_t b) {
+    edges_.push_back({w, a});
+    edges_.push_back({b, w});
+    others_.insert(others_.end(), {a, b});
+  });
+  std::sort(others_.begin(), others_.end());
+  for (const Edge& edge : edges_) {
+    const std::uint32_t other = edge.a == w ? edge.b : edge.a;
+    const auto uses = std::equal_range(others_.begin(), others_.end(), other);
+    if (uses.second - uses.first != 1 || other == but) continue;
+    const glm::dvec3 a = between(u, edge.a), b = between(u, edge.b);
+    sums.has_boundary = true;
+    sums.along += b - a;
+    sums.twist += glm::cross(a, b);
+    sums.boundary.add_cross(b - a, glm::cross(a, b));
   }
 }
 
@@ -221,7 +220,23 @@ LindstromTurkMetric::Sums LindstromTurkMetric::sum_up(std::uint32_t u, std::uint
   Sums sums = sum_triangles(u, v);
   const glm::dvec3 edge = between(u, v);
   sums.edge2 = glm::dot(edge, edge);
-  if (on_boundary_[u] || on_boundary_[v]) gather_boundary(u, v, sums);
+  if (on_boundary_[u] || on_boundary_[v]) {
+    gather_boundary(u, u, kNone, sums);
+    gather_boundary(u, v, u, sums);
+  }
+  return sums;
+}
+
+// What counts when u goes to where the hub is: planes and edges of the hub go through that place.
+LindstromTurkMetric::Sums LindstromTurkMetric::sum_up_beside_hub(std::uint32_t u,
+                                                                 std::uint32_t hub) {
+  const Star& of_u = star(u);
+  Sums sums;
+  sums.normals = of_u.normals;
+  sums.volume.a = of_u.squares;
+  const glm::dvec3 edge = between(u, hub);
+  sums.edge2 = glm::dot(edge, edge);
+  if (on_boundary_[u]) gather_boundary(u, u, kNone, sums);
   return sums;
 }
 
@@ -230,6 +245,26 @@ float LindstromTurkMetric::cost_of(const Sums& sums, const glm::dvec3& p) const 
   if (sums.has_boundary)
     value += options_.boundary_weight * sums.edge2 / 4 * sums.boundary.value(p);
   return static_cast<float>(cube_root(std::sqrt(std::max(value, 0.0))));
+}
+
+// What has changed of the star of a hub, which stays.
+void LindstromTurkMetric::traced(std::uint32_t, std::uint32_t v, const CollapseTrace& trace) {
+  if (!mesh_.is_hub(v)) return;
+  const auto forget_triangle = [&](std::uint32_t t) {
+    for (std::uint32_t c = 3 * t; c < 3 * t + 3; ++c) is_current_[mesh_.vertex_at(c)] = false;
+  };
+  for (const std::uint32_t t : trace.died) forget_triangle(t);
+  for (const std::uint32_t c : trace.moved) forget_triangle(c / 3);
+}
+
+void LindstromTurkMetric::collapsed(std::uint32_t u, std::uint32_t v, const glm::vec3& position) {
+  on_boundary_[v] = on_boundary_[u] || on_boundary_[v];
+  spokes_of_ = last_.u = kNone;
+  is_current_[v] = false;
+  if (!mesh_.is_hub(v) || position != positions_[v])
+    mesh_.for_each_triangle(
+        v, [&](std::uint32_t a, std::uint32_t b) { is_current_[a] = is_current_[b] = false; });
+  positions_[v] = position;
 }
 
 const LindstromTurkMetric::Evaluated& LindstromTurkMetric::evaluate(std::uint32_t u,
@@ -243,6 +278,8 @@ const LindstromTurkMetric::Evaluated& LindstromTurkMetric::evaluate(std::uint32_
 }
 
 float LindstromTurkMetric::cost_at(std::uint32_t u, std::uint32_t v, const glm::vec3& position) {
+  if (mesh_.is_hub(v) && position == positions_[v])
+    return cost_of(sum_up_beside_hub(u, v), between(u, v));
   if (u > v) std::swap(u, v);
   return cost_of(sum_up(u, v), glm::dvec3(position) - glm::dvec3(positions_[u]));
 }

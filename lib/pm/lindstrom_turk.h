@@ -33,14 +33,8 @@ class LindstromTurkMetric {
   float cost_at(std::uint32_t u, std::uint32_t v, const glm::vec3& position);
   glm::vec3 optimal_position(std::uint32_t u, std::uint32_t v) { return evaluate(u, v).position; }
   bool allows(const CollapseMesh&, std::uint32_t, std::uint32_t) const { return true; }
-  void collapsed(std::uint32_t u, std::uint32_t v, const glm::vec3& position) {
-    on_boundary_[v] = on_boundary_[u] || on_boundary_[v];
-    positions_[v] = position;
-    spokes_of_ = last_.u = kNone;
-    is_current_[v] = false;
-    mesh_.for_each_triangle(
-        v, [&](std::uint32_t a, std::uint32_t b) { is_current_[a] = is_current_[b] = false; });
-  }
+  void traced(std::uint32_t u, std::uint32_t v, const CollapseTrace& trace);
+  void collapsed(std::uint32_t u, std::uint32_t v, const glm::vec3& position);
   void fetch(std::uint32_t v) const {
     __builtin_prefetch(&positions_[v]);
     __builtin_prefetch(&stars_[v]);
@@ -91,8 +85,9 @@ class LindstromTurkMetric {
   void gather_spokes(std::uint32_t u);
   Sums sum_triangles(std::uint32_t u, std::uint32_t v);
   Sums sum_up(std::uint32_t u, std::uint32_t v);
+  Sums sum_up_beside_hub(std::uint32_t u, std::uint32_t hub);
   Quadratic make_shape(std::uint32_t u, std::uint32_t v) const;
-  void gather_boundary(std::uint32_t u, std::uint32_t v, Sums& sums);
+  void gather_boundary(std::uint32_t u, std::uint32_t w, std::uint32_t but, Sums& sums);
   glm::dvec3 least(std::uint32_t u, std::uint32_t v, const Sums& sums) const;
   float cost_of(const Sums& sums, const glm::dvec3& p) const;
   glm::dvec3 between(std::uint32_t from, std::uint32_t to) const {

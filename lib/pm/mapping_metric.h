@@ -89,6 +89,9 @@ class MappingFullMetric {
   bool allows(const CollapseMesh&, std::uint32_t u, std::uint32_t v, const glm::vec3& position) {
     return cost_at(u, v, position) < std::numeric_limits<float>::infinity();
   }
+  void traced(std::uint32_t u, std::uint32_t v, const CollapseTrace& trace) {
+    positioner_.traced(u, v, trace);
+  }
   void collapsed(std::uint32_t u, std::uint32_t v, const glm::vec3& position) {
     positioner_.collapsed(u, v, position);
     trial_.accept();

@@ -120,7 +120,7 @@ TriMesh ProgressiveMesh::extract(std::vector<std::uint32_t>* source_vertex) cons
                                : find_used_vertices(out.triangles, from.positions.size());
   out.triangles = used.renumber(out.triangles);
   for (const std::uint32_t v : used.source)
-    out.positions.push_back(from.positions[record_.is_full_edge() ? record_.vertex_of[v] : v]);
+    out.positions.push_back(from.positions[is_input ? v : record_.vertex_of[v]]);
   out.colors = used.pick(from.colors);
   if (record_.is_full_edge() && !is_input && !from.normals.empty())
     out.normals = make_vertex_normals(out);

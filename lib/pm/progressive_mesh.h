@@ -86,8 +86,9 @@ class ProgressiveMesh {
   void set_level(std::size_t level);
 
   /// The mesh at this level: vertices and faces in the input's order, those of the input that are
-  /// used (at the input: all). source_vertex: their numbers in the input, if wanted. Normals are
-  /// the input's; after full-edge collapses, computed.
+  /// used (at the input: all). source_vertex: their numbers in the input, if wanted. Welded
+  /// vertices are all where the first of them is, but at the input. Normals are the input's; after
+  /// full-edge collapses, computed.
   TriMesh extract(std::vector<std::uint32_t>* source_vertex = nullptr) const;
 
  private:

@@ -22,8 +22,8 @@ struct RecordedMetric {
   bool refuse_folds;   ///< in the texture
   ChartGuard* charts;  ///< to keep them apart, or none
   /// Where an edge may go in a full-edge collapse: nowhere, to its end v (from inside a chart to
-  /// its border, from a border to where borders meet), to a point on itself (along a border),
-  /// anywhere.
+  /// its border, from a border to where borders meet, to a hub), to a point on itself (along a
+  /// border), anywhere.
   enum class Way { none, to_end, along, free };
   glm::vec3 last_position{0};
   Way last_way = Way::free;
@@ -47,10 +47,17 @@ struct RecordedMetric {
   }
   { return metric.cost_at_least(u, v); }
   Way find_way(std::uint32_t u, std::uint32_t v) requires kHasPlacement {
-    if (recorder.texcoords().empty()) return Way::free;
+    if (mesh.is_hub(u)) return Way::none;
+    if (recorder.texcoords().empty()) return mesh.is_hub(v) ? Way::to_end : Way::free;
     if (!recorder.match(mesh, u, v)) return Way::none;
-    if (!recorder.table().match_both(mesh, v)) return Way::to_end;
-    return recorder.table().texture_pairs().size() < 2 ? Way::free : Way::along;
+    if (mesh.is_hub(v) || !recorder.table().match_both(mesh, v)) return Way::to_end;
+    return n_charts() < 2 ? Way::free : Way::along;
+  }
+  /// Of the last match: charts that hold both ends. Of two-sided sheets one side's, unless the
+  /// metric looks at the texture.
+  std::size_t n_charts() const {
+    if constexpr (requires { metric.texcoord(); }) return recorder.table().texture_pairs().size();
+    return recorder.table().n_sheet_pairs();
   }
   bool may_collapse(std::uint32_t u, std::uint32_t v) requires kHasPlacement {
     const Way way = find_way(u, v);
@@ -71,10 +78,12 @@ struct RecordedMetric {
     if (!recorder.match(mesh, u, v)) return Refusal::chart;
     if constexpr (kHasPlacement)
       if (!stays()) recorder.table().match_both(mesh, v);
-    if (kHasPlacement && is_far_from_stars(u, v)) return Refusal::metric;
+    if constexpr (kHasPlacement)
+      if (!stays() && is_far_from_stars(u, v)) return Refusal::metric;
     merge(u, v);
-    if (refuse_folds && recorder.folds(mesh, u, v)) return Refusal::fold;
-    if (charts && recorder.overlaps(mesh, u, v, *charts)) return Refusal::overlap;
+    const bool moves_both = kHasPlacement && !mesh.is_hub(v);
+    if (refuse_folds && recorder.folds(mesh, u, v, moves_both)) return Refusal::fold;
+    if (charts && recorder.overlaps(mesh, u, v, moves_both, *charts)) return Refusal::overlap;
     const Refusal refusal = metric_allows(u, v);
     if (refusal != Refusal::none || !guard) return refusal;
     const float reach = kHasPlacement ? guard->measure(u, v, last_position) : guard->measure(u, v);

@@ -28,14 +28,16 @@ class Recorder {
   void merge(const CollapseMesh& mesh, std::uint32_t u, std::uint32_t v, const glm::vec3& position);
   /// The same for a single pair of texture vertices whose coordinates the metric has found.
   void merge(const glm::vec2& texcoord) { merged_.assign(table_.pairs().size(), texcoord); }
-  /// Whether the collapse merged last turns a triangle over in the texture.
-  bool folds(const CollapseMesh& mesh, std::uint32_t u, std::uint32_t v) const {
+  /// Whether the collapse merged last turns a triangle over in the texture. moves_both: the
+  /// triangles of v are looked at, too.
+  bool folds(const CollapseMesh& mesh, std::uint32_t u, std::uint32_t v, bool moves_both) const {
     return !texcoords_.empty() &&
-           turns_over_texture(mesh, table_, texcoords_, u, v, merged_, is_full_);
+           turns_over_texture(mesh, table_, texcoords_, u, v, merged_, moves_both);
   }
   /// Whether it makes a chart grow over another.
-  bool overlaps(const CollapseMesh& mesh, std::uint32_t u, std::uint32_t v, ChartGuard& charts) {
-    return charts.overlaps(mesh, table_, texcoords_, u, v, merged_, is_full_);
+  bool overlaps(const CollapseMesh& mesh, std::uint32_t u, std::uint32_t v, bool moves_both,
+                ChartGuard& charts) {
+    return charts.overlaps(mesh, table_, texcoords_, u, v, merged_, moves_both);
   }
   /// The triangles have changed; the parent has not moved yet.
   void traced(std::uint32_t u, std::uint32_t v, const CollapseTrace& trace);

@@ -8,9 +8,9 @@
 namespace viewcell {
 
 TextureQuadrics::TextureQuadrics(const WedgeMesh& input, std::span<const glm::vec3> at,
+                                 std::span<const Triangle> triangles,
                                  const std::vector<glm::vec2>& uv, const TextureQemOptions& options)
     : positions(at), texcoords(uv), centre(box_centre(at)), of_wedges(input.n_wedges()) {
-  const std::vector<Triangle> triangles = input.vertex_triangles();
   cost_scale = make_quadric_scale(positions, triangles, options.qem);
   boundaries = make_boundary_quadrics(positions, triangles, centre, options.qem);
   double area_sum = 0, texture_area_sum = 0;
@@ -20,6 +20,7 @@ TextureQuadrics::TextureQuadrics(const WedgeMesh& input, std::span<const glm::ve
   };
   for (std::size_t f = 0; f < triangles.size(); ++f) {
     const auto& [i, j, k] = input.faces[f];
+    if (triangles[f][0] == triangles[f][1]) continue;  // a copy
     const glm::dvec2 a = texcoords[i], b = texcoords[j], c = texcoords[k];
     area_sum += area_of(triangles[f]);
     texture_area_sum += 0.5 * std::abs((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x));
@@ -68,7 +69,8 @@ float TextureQuadrics::cost_at_parent(const CollapseMesh& mesh, const WedgeTable
     add_wedge(from, to);
     meet(to);
   }
-  mesh.for_each_corner(v, [&](std::uint32_t c) { meet(wedges.at(c)); });
+  // of a hub those that are met, for what the others are off does not depend on u
+  if (!mesh.is_hub(v)) mesh.for_each_corner(v, [&](std::uint32_t c) { meet(wedges.at(c)); });
   return cost_scale.cost(value, weight);
 }
 
@@ -81,7 +83,7 @@ const TextureQemFullMetric::Evaluated& TextureQemFullMetric::evaluate(std::uint3
                                                                       std::uint32_t v) {
   last_ = {std::numeric_limits<float>::infinity(), positions_[v], {}};
   if (!wedges_.match(mesh_, u, v)) return last_;
-  if (!wedges_.match_both(mesh_, v)) {
+  if (mesh_.is_hub(v) || !wedges_.match_both(mesh_, v)) {
     last_.cost = quadrics_.cost_at_parent(mesh_, wedges_, u, v);
     return last_;
   }

@@ -29,8 +29,10 @@ struct TextureQuadrics {
   LargeVector<Quadric5> of_wedges;  ///< by texture vertex
   LargeVector<Quadric> boundaries;  ///< by vertex
 
+  /// triangles: of vertices, those of copies shrunk to points (without_copies).
   TextureQuadrics(const WedgeMesh& input, std::span<const glm::vec3> positions,
-                  const std::vector<glm::vec2>& texcoords, const TextureQemOptions& options);
+                  std::span<const Triangle> triangles, const std::vector<glm::vec2>& texcoords,
+                  const TextureQemOptions& options);
   Vec5 point(std::uint32_t vertex, std::uint32_t wedge) const;
   /// The cost of both vertices at v, each wedge of u at that of v that the table has matched last.
   float cost_at_parent(const CollapseMesh& mesh, const WedgeTable& wedges, std::uint32_t u,
@@ -45,8 +47,11 @@ class TextureQemMetric {
  public:
   /// Keeps references; wedges is the table while the mesh collapses.
   TextureQemMetric(const CollapseMesh& mesh, const WedgeMesh& input, WedgeTable& wedges,
-                   std::span<const glm::vec3> positions, const TextureQemOptions& options = {})
-      : mesh_(mesh), wedges_(wedges), quadrics_(input, positions, input.texcoords, options) {}
+                   std::span<const glm::vec3> positions, std::span<const Triangle> triangles,
+                   const TextureQemOptions& options = {})
+      : mesh_(mesh),
+        wedges_(wedges),
+        quadrics_(input, positions, triangles, input.texcoords, options) {}
 
   float cost(std::uint32_t u, std::uint32_t v);
   bool allows(const CollapseMesh&, std::uint32_t, std::uint32_t) const { return true; }
@@ -62,19 +67,21 @@ class TextureQemMetric {
 };
 
 /// Full-edge collapses into the position and texture coordinates where the quadrics' sum is least;
-/// along chart borders, on the edge; from inside a chart to its border, at v. Moves positions.
+/// along chart borders, on the edge; from inside a chart to its border and at hubs, at v. Moves
+/// positions.
 /// Follows: [Garland, Heckbert 1998].
 class TextureQemFullMetric {
  public:
   /// Keeps references; wedges is the table while the mesh collapses, texcoords those of its wedges,
   /// which somebody else moves.
   TextureQemFullMetric(const CollapseMesh& mesh, const WedgeMesh& input, WedgeTable& wedges,
-                       std::span<glm::vec3> positions, const std::vector<glm::vec2>& texcoords,
+                       std::span<glm::vec3> positions, std::span<const Triangle> triangles,
+                       const std::vector<glm::vec2>& texcoords,
                        const TextureQemOptions& options = {})
       : mesh_(mesh),
         wedges_(wedges),
         positions_(positions),
-        quadrics_(input, positions, texcoords, options) {}
+        quadrics_(input, positions, triangles, texcoords, options) {}
 
   float cost(std::uint32_t u, std::uint32_t v) { return evaluate(u, v).cost; }
   glm::vec3 optimal_position(std::uint32_t u, std::uint32_t v) { return evaluate(u, v).position; }

@@ -4,6 +4,7 @@
 #include <bit>
 #include <numeric>
 #include <tuple>
+#include <unordered_map>
 
 #include "base/error.h"
 
@@ -13,21 +14,45 @@ namespace {
 // A split's pairs are numbered in a byte.
 constexpr std::size_t kMostPairs = 256;
 
+// Of the different texture coordinates at a vertex so many are looked through one by one.
+constexpr int kLongChain = 32;
+
+struct WedgeKey {
+  std::uint32_t vertex;
+  glm::vec2 texcoord;
+  bool operator==(const WedgeKey&) const = default;
+};
+struct WedgeHash {
+  std::size_t operator()(const WedgeKey& key) const {
+    std::uint64_t h = key.vertex;
+    for (const float x : {key.texcoord.x + 0.0f, key.texcoord.y + 0.0f})  // -0 becomes 0
+      h = (h ^ (h >> 32) ^ std::bit_cast<std::uint32_t>(x)) * 0x9e3779b97f4a7c15ull;
+    return h ^ (h >> 32);
+  }
+};
+
 // Wedges of the faces' corners; the first texture coordinates met at a vertex of the file are those
 // of the wedge with its number.
 void add_texcoords(const TriMesh& mesh, WedgeMesh& out) {
   constexpr std::uint32_t kNone = 0xffffffffu;
-  std::vector<std::uint32_t> next(mesh.positions.size(), kNone);  // wedge -> next of its vertex
+  std::vector<std::uint32_t> next(mesh.positions.size(), kNone);   // wedge -> next of its vertex
+  std::unordered_map<WedgeKey, std::uint32_t, WedgeHash> chained;  // beyond the first kLongChain
   std::vector<bool> is_met(mesh.positions.size(), false);
   out.texcoords.assign(mesh.positions.size(), glm::vec2(0));
   const auto wedge_of = [&](std::uint32_t source, const glm::vec2& uv) {
     if (!is_met[source]) out.texcoords[source] = uv;
     is_met[source] = true;
     std::uint32_t w = source;
-    while (out.texcoords[w] != uv && next[w] != kNone) w = next[w];
+    int n = 0;
+    while (out.texcoords[w] != uv && next[w] != kNone && ++n < kLongChain) w = next[w];
     if (out.texcoords[w] == uv) return w;
     const auto made = static_cast<std::uint32_t>(out.n_wedges());
-    next[w] = made;
+    if (n == kLongChain) {
+      const auto [found, is_new] = chained.try_emplace(WedgeKey{source, uv}, made);
+      if (!is_new) return found->second;
+    } else {
+      next[w] = made;
+    }
     next.push_back(kNone);
     out.texcoords.push_back(uv);
     out.wedge_source.push_back(source);
@@ -147,12 +172,13 @@ std::vector<Triangle> WedgeMesh::vertex_triangles() const {
   return out;
 }
 
-WedgeMesh make_wedges(const TriMesh& mesh, bool along_curve) {
+WedgeMesh make_wedges(const TriMesh& mesh, const WedgeOptions& options) {
   WedgeMesh out;
   out.positions.assign(mesh.positions.begin(), mesh.positions.end());
   const std::vector<std::uint64_t> codes = morton_codes(mesh.positions);
   const std::vector<std::uint32_t> order = sorted_order(codes);
   out.wedge_vertex = weld(mesh.positions, codes, order);
+  out.apart = weld_borders(mesh.positions, mesh.triangles, options.weld, out.wedge_vertex);
   const auto n = static_cast<std::uint32_t>(mesh.positions.size());
   out.wedge_source = identity(n);
   for (std::uint32_t v = 0; v < n; ++v) out.n_welded += out.wedge_vertex[v] != v;
@@ -172,7 +198,7 @@ WedgeMesh make_wedges(const TriMesh& mesh, bool along_curve) {
   }
   out.vertex_source = identity(n);
   out.face_index = identity(static_cast<std::uint32_t>(out.faces.size()));
-  if (along_curve) order_along_curve(order, out);
+  if (options.along_curve) order_along_curve(order, out);
   return out;
 }
 
@@ -182,9 +208,13 @@ void find_texture_vertices(WedgeMesh& mesh) {
   mesh.texture_vertex.resize(n);
   // The texture vertices of a vertex, one after another.
   std::vector<std::uint32_t> first(n, kNone), next(n, kNone);
+  std::unordered_map<WedgeKey, std::uint32_t, WedgeHash> chained;  // beyond the first kLongChain
   for (std::uint32_t w = 0; w < n; ++w) {
-    std::uint32_t* at = &first[mesh.wedge_vertex[w]];
-    while (*at != kNone && mesh.texcoords[*at] != mesh.texcoords[w]) at = &next[*at];
+    const std::uint32_t v = mesh.wedge_vertex[w];
+    std::uint32_t* at = &first[v];
+    for (int i = 0; *at != kNone && mesh.texcoords[*at] != mesh.texcoords[w]; ++i)
+      at = i < kLongChain ? &next[*at]
+                          : &chained.try_emplace(WedgeKey{v, mesh.texcoords[w]}, w).first->second;
     if (*at == kNone) *at = w;
     mesh.texture_vertex[w] = *at;
   }
@@ -231,11 +261,14 @@ bool WedgeTable::pair_rest(const CollapseMesh& mesh, std::uint32_t u) {
 bool WedgeTable::match(const CollapseMesh& mesh, std::uint32_t u, std::uint32_t v) {
   pairs_.clear(), texture_pairs_.clear();
   bool fits = true;
-  mesh.for_each_corner(u, [&](std::uint32_t c) {
+  const auto pair_up = [&](std::uint32_t c) {
     const std::uint32_t t = 3 * (c / 3);
     for (std::uint32_t other = t; other < t + 3; ++other)
       if (mesh.vertex_at(other) == v) fits = fits && add_pair({corners_[c], corners_[other]});
-  });
+  };
+  mesh.for_each_sheet_corner(u, pair_up);
+  n_sheet_pairs_ = texture_pairs_.size();
+  if (mesh.has_copies()) mesh.for_each_corner(u, pair_up);
   return fits && pair_rest(mesh, u) && pairs_.size() <= kMostPairs;
 }
 

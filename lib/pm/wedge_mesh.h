@@ -7,15 +7,16 @@
 #include <vector>
 
 #include "mesh/charts.h"
+#include "mesh/weld.h"
 #include "pm/collapse_mesh.h"
 
 namespace viewcell {
 
 /// A wedge is a vertex with one set of attributes (normal, colour, texture coordinates). Where
-/// several vertices of the file stand at one position, the first is the vertex and the others are
-/// wedges of it only. Wedge w < n of the file's vertices has the attributes of vertex w; further
-/// wedges are second, third, ... texture coordinates of one. Vertices and faces may stand along a
-/// curve through space, so that neighbours lie together in memory.
+/// several vertices of the file stand at one position, or are welded, the first is the vertex and
+/// the others are wedges of it only. Wedge w < n of the file's vertices has the attributes of
+/// vertex w; further wedges are second, third, ... texture coordinates of one. Vertices and faces
+/// may stand along a curve through space, so that neighbours lie together in memory.
 struct WedgeMesh {
   LargeVector<glm::vec3> positions;
   std::vector<std::uint32_t> vertex_source;  ///< vertex -> the file's number of it
@@ -29,14 +30,18 @@ struct WedgeMesh {
   std::vector<std::uint32_t> face_source;  ///< face -> triangle of the file
   std::vector<std::uint32_t> face_index;   ///< face -> its index in the order of the file
   std::size_t n_welded = 0;                ///< vertices of the file that are not a vertex here
+  BorderWeld apart;                        ///< those of them that stand elsewhere
   std::size_t n_dropped = 0;               ///< triangles with two corners at one position
 
   std::size_t n_wedges() const { return wedge_vertex.size(); }
   std::vector<Triangle> vertex_triangles() const;
 };
 
-/// along_curve: false keeps the order of the file.
-WedgeMesh make_wedges(const TriMesh& mesh, bool along_curve = false);
+struct WedgeOptions {
+  bool along_curve = false;  ///< false: the order of the file
+  WeldOptions weld;          ///< equal positions are welded always
+};
+WedgeMesh make_wedges(const TriMesh& mesh, const WedgeOptions& options = {});
 
 /// Sets texture_vertex.
 void find_texture_vertices(WedgeMesh& mesh);
@@ -68,6 +73,8 @@ class WedgeTable {
   const std::vector<Pair>& pairs() const { return pairs_; }
   /// The first pair of each texture vertex of u.
   const std::vector<Pair>& texture_pairs() const { return texture_pairs_; }
+  /// How many of them, from the first on, copies of faces have no part in (FaceCopies).
+  std::size_t n_sheet_pairs() const { return n_sheet_pairs_; }
   /// After match(): whether v may move as well, for each of its texture vertices is met by just one
   /// of u. Then pairs() has every wedge of v.
   bool match_both(const CollapseMesh& mesh, std::uint32_t v);
@@ -80,6 +87,7 @@ class WedgeTable {
   std::vector<std::uint32_t> texture_vertex_;
   LargeVector<std::uint32_t> corners_;
   std::vector<Pair> pairs_, texture_pairs_;
+  std::size_t n_sheet_pairs_ = 0;
 };
 
 }  // namespace viewcell

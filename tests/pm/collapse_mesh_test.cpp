@@ -140,14 +140,16 @@ TEST(CollapseMesh, NoFaceTurnsOver) {
   EXPECT_EQ(mesh.check(0, 4, 0.2f), Refusal::none);
 }
 
-// What the definitions say, from the list of triangles.
+// What the definitions say, from the list of triangles; those over the same vertices count once.
 struct Plain {
   std::set<std::uint32_t> ring;
   bool is_on_boundary = false;
   Plain(const std::vector<Triangle>& triangles, std::uint32_t v) {
     std::map<std::uint32_t, int> n_times;
+    std::set<std::set<std::uint32_t>> met;
     for (const Triangle& t : triangles) {
       if (std::find(t.begin(), t.end(), v) == t.end()) continue;
+      if (!met.insert({t.begin(), t.end()}).second) continue;
       for (const std::uint32_t w : t)
         if (w != v) ++n_times[w];
     }

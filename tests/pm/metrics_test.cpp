@@ -214,8 +214,10 @@ TEST(TextureQemFull, PlacesWhereTheCostIsLeast) {
   WedgeMesh wedges = make_wedges(mesh);
   CollapseMesh work(wedges.positions, wedges.vertex_triangles());
   WedgeTable table(wedges);
-  TextureQemFullMetric metric(work, wedges, table, wedges.positions, wedges.texcoords);
-  const TextureQuadrics quadrics(wedges, wedges.positions, wedges.texcoords, {});
+  TextureQemFullMetric metric(work, wedges, table, wedges.positions, wedges.vertex_triangles(),
+                              wedges.texcoords);
+  const TextureQuadrics quadrics(wedges, wedges.positions, wedges.vertex_triangles(),
+                                 wedges.texcoords, {});
   Random random(2);
   for (const Triangle& t : wedges.faces) {
     Quadric5 sum = quadrics.of_wedges[t[0]];
@@ -245,8 +247,10 @@ TEST(TextureQemFull, BorderPlacesAreTheLeastOfTheEdge) {
   WedgeMesh wedges = make_wedges(mesh);
   CollapseMesh work(wedges.positions, wedges.vertex_triangles());
   WedgeTable table(wedges);
-  TextureQemFullMetric metric(work, wedges, table, wedges.positions, wedges.texcoords);
-  const TextureQuadrics quadrics(wedges, wedges.positions, wedges.texcoords, {});
+  TextureQemFullMetric metric(work, wedges, table, wedges.positions, wedges.vertex_triangles(),
+                              wedges.texcoords);
+  const TextureQuadrics quadrics(wedges, wedges.positions, wedges.vertex_triangles(),
+                                 wedges.texcoords, {});
   int n_inside = 0, n_borders = 0;
   for (const Triangle& t : wedges.vertex_triangles()) {
     const auto [u, v, w] = t;
@@ -321,7 +325,8 @@ TEST(TextureQem, BentTexturesCost) {
     const std::vector<Triangle> triangles = wedges.vertex_triangles();
     CollapseMesh work(wedges.positions, triangles);
     WedgeTable table(wedges);
-    return TextureQemMetric(work, wedges, table, wedges.positions).cost(40, 49);  // upwards
+    return TextureQemMetric(work, wedges, table, wedges.positions, triangles)
+        .cost(40, 49);  // upwards
   };
   EXPECT_NEAR(cost_of(grid), 0, 1e-5);
   TriMesh bent = grid;

@@ -2,10 +2,10 @@
 #pragma once
 
 #include <array>
-#include <limits>
 #include <optional>
 #include <string>
 
+#include "common/length.h"
 #include "common/tool.h"
 #include "report/distance_report.h"
 
@@ -15,7 +15,7 @@ struct MeshdistArguments {
   std::string a, b, color;
   std::optional<std::string> range_text;
   std::optional<std::array<double, 2>> range;  ///< after finish_arguments
-  double fail_above = std::numeric_limits<double>::infinity();
+  std::optional<std::string> fail_above;       ///< a Length
   DistanceOptions options;
 };
 

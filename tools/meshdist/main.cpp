@@ -93,9 +93,11 @@ int run(const Tool& tool, const MeshdistArguments& arguments) {
   tool.say(format_fixed(1e-6 * static_cast<double>(n), 2, "") + " million samples in " +
            format_fixed(took_s, 2, "") + " s");
   const double most = distance.symmetric().max;
-  if (!(most > arguments.fail_above)) return 0;
+  if (!arguments.fail_above) return 0;
+  const double allowed = parse_length(*arguments.fail_above).of(distance.bbox_diagonal);
+  if (!(most > allowed)) return 0;
   std::fprintf(stderr, "meshdist: %s maximum %.6g is above %.6g\n",
-               in.points == PointCloud::none ? "symmetric" : "forward", most, arguments.fail_above);
+               in.points == PointCloud::none ? "symmetric" : "forward", most, allowed);
   return kOverThreshold;
 }
 

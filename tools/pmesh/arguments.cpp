@@ -55,10 +55,16 @@ void declare_build(Tool& tool, PmeshArguments& a) {
       .show_default()
       .check(within(0, 1e6));
   build
-      .add_option("--bounded", &a.build.error_bound,
+      .add_option("--bounded", &a.bounded,
                   "refuse what could bring a point farther than this from the other surface, in "
-                  "units of the mesh")
-      .check(within(1e-30, 1e30));
+                  "units of the mesh, or 0.1%: of its box's diagonal")
+      .check(length_within(1e-30, 1e30));
+  build
+      .add_option("--weld", &a.weld,
+                  "vertices on borders up to so far apart are one, in units of the mesh or %; 0: "
+                  "at equal positions only (default: 0.001%, but a quarter of the shortest edge "
+                  "there at most)")
+      .check(length_within(0, 1e30));
   build.add_flag("--track-error", &a.build.track_error,
                  "keep a bound of the distance for every level, under any metric (aps, mapping "
                  "and --bounded have it)");
@@ -165,8 +171,9 @@ void declare_arguments(Tool& tool, PmeshArguments& a) {
   extract
       .add_option("--within", &a.within,
                   "the coarsest level that is surely no farther than this from the input, in units "
-                  "of the mesh; for a .pm with bounds (see build --track-error)")
-      .check(within(0, 1e30))
+                  "of the mesh, or 0.1%: of its box's diagonal; for a .pm with bounds (see build "
+                  "--track-error)")
+      .check(length_within(0, 1e30))
       .excludes("--faces");
   Command& info = tool.add_command("info", "say what a .pm holds");
   info.add_option("PM", &a.pm, "progressive mesh").required().reads(pm);

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "common/length.h"
 #include "common/tool.h"
 #include "pm/build.h"
 
@@ -13,10 +14,11 @@ struct PmeshArguments {
   std::string model, metric = "qem3", placement, error = "total", measure = "max", pm;
   std::optional<std::string> stop_at;
   bool unweighted = false, mean = false, exact = false, no_texture = false, flip_v = false;
-  std::optional<std::size_t> n_faces;  ///< of extract
-  std::optional<double> within;        ///< of extract: mesh units
-  bool stops_at_faces = false;         ///< after finish_arguments
-  BuildOptions build;                  ///< after finish_arguments
+  std::optional<std::size_t> n_faces;        ///< of extract
+  std::optional<std::string> within;         ///< of extract: a Length
+  std::optional<std::string> bounded, weld;  ///< of build: a Length
+  bool stops_at_faces = false;               ///< after finish_arguments
+  BuildOptions build;                        ///< after finish_arguments
 };
 
 void declare_arguments(Tool& tool, PmeshArguments& arguments);

@@ -6,11 +6,15 @@
 #include "common/mesh_input.h"
 #include "common/provenance.h"
 #include "common/stopwatch.h"
+#include "mesh/used_vertices.h"
 #include "pm/pm_file.h"
 #include "pmesh/commands.h"
 
 namespace viewcell {
 namespace {
+
+// Fewer hold nobody back.
+constexpr std::size_t kMostSmallPieces = 16;
 
 Json format_options(const BuildOptions& b) {
   Json out{{"metric", metric_name(b.metric)},
@@ -22,6 +26,7 @@ Json format_options(const BuildOptions& b) {
   if (b.metric == MetricKind::aps || b.metric == MetricKind::mapping)
     out["error"] = b.total_error ? "total" : "incremental";
   if (b.metric == MetricKind::mapping) out["measure"] = b.measure == Measure::mean ? "mean" : "max";
+  if (b.weld_tolerance) out["weld_tolerance"] = *b.weld_tolerance;
   if (std::isfinite(b.error_bound)) out["error_bound"] = b.error_bound;
   if (b.track_error) out["track_error"] = true;
   if (b.refuse_folds) out["refuse_folds"] = true;
@@ -58,16 +63,42 @@ const char* advise(const PmeshArguments& a, const CollapseCounts& counts) {
   return by_chart && can_leave_out ? "; --no-texture leaves charts out" : "";
 }
 
+// Lengths that are shares of the mesh.
+BuildOptions set_lengths(const PmeshArguments& a, const TriMesh& mesh) {
+  BuildOptions options = a.build;
+  const double diagonal = glm::length(surface_box(mesh).size());
+  if (a.bounded) options.error_bound = static_cast<float>(parse_length(*a.bounded).of(diagonal));
+  if (a.weld) options.weld_tolerance = parse_length(*a.weld).of(diagonal);
+  return options;
+}
+
+// What was done to the mesh, or holds it back, without being asked for.
+Remarks remark_on(const BuildResult& result) {
+  Remarks out;
+  char text[160];
+  std::snprintf(text, sizeof text,
+                "vertices welded to others up to %.3g away (--weld 0 leaves them apart)",
+                result.welded_apart.gap);
+  add_remark(&out, text, result.welded_apart.n_welded);
+  const PieceCounts& pieces = result.pieces;
+  if (pieces.n_small >= kMostSmallPieces && 2 * pieces.n_in_small > result.record.faces.size())
+    add_remark(&out,
+               "pieces of at most four faces, which edges and vertices do not join, hold collapses "
+               "back (--weld joins what is nearly at one place)",
+               pieces.n_small);
+  return out;
+}
+
 }  // namespace
 
 int build(const Tool& tool, const PmeshArguments& a) {
-  const BuildOptions& options = a.build;
   Stopwatch watch;
   std::string hash;
   TriMesh mesh = read_mesh_input(tool, a.model, &hash);
   if (a.no_texture) mesh.texcoords.clear();
   if (a.flip_v)
     for (glm::vec2& uv : mesh.texcoords) uv.y = 1 - uv.y;
+  const BuildOptions options = set_lengths(a, mesh);
   const double read_s = watch.lap_s();
   BuildResult result = build_progressive_mesh(mesh, options, tool.progress("percent"));
   const double build_s = watch.lap_s();
@@ -78,6 +109,7 @@ int build(const Tool& tool, const PmeshArguments& a) {
   if (a.flip_v) said["flip_v"] = true;
   result.record.made_by = make_provenance(tool, said, {{"model", hash}}).dump();
   write_pm(tool.common().output, result.record);
+  tool.remark(a.model, remark_on(result));
   const CollapseCounts& counts = result.counts;
   const bool is_short = a.stops_at_faces && n_base > options.target_faces;
   if (!is_short)
@@ -91,6 +123,10 @@ int build(const Tool& tool, const PmeshArguments& a) {
                {"cost_evaluations", counts.n_costs},
                {"cost_max", counts.last_cost},
                {"vertices_welded", result.n_welded},
+               {"vertices_welded_apart", result.welded_apart.n_welded},
+               {"weld_tolerance", result.weld_tolerance},
+               {"pieces", result.pieces.n},
+               {"pieces_small", result.pieces.n_small},
                {"faces_dropped", result.n_dropped},
                {"timing", {{"read_s", read_s}, {"build_s", build_s}}}});
   if (!is_short) return 0;

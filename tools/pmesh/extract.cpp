@@ -4,6 +4,7 @@
 #include "base/version.h"
 #include "common/stopwatch.h"
 #include "formats/mesh_file.h"
+#include "mesh/used_vertices.h"
 #include "pm/pm_file.h"
 #include "pmesh/commands.h"
 
@@ -18,10 +19,12 @@ void write_level(const Tool& tool, const TriMesh& mesh) {
   tool.remark(file, remarks);
 }
 
+// mesh: at the input.
 void choose_level(const PmeshArguments& a, ProgressiveMesh& mesh) {
   if (!a.within)
     mesh.set_faces(*a.n_faces);
-  else if (!mesh.set_error(*a.within))
+  else if (!mesh.set_error(
+               parse_length(*a.within).of(glm::length(surface_box(mesh.extract()).size()))))
     throw InputError(a.pm, "", "has no error bounds; pmesh build --track-error keeps them");
 }
 
