@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include "base/error.h"
+#include "formats/face_list.h"
 #include "formats/gltf_mesh.h"
 #include "formats/material_ids.h"
 #include "formats/mesh_limits.h"
@@ -81,10 +82,11 @@ class GltfFlattener {
 
   TriMesh flatten() {
     for (const GltfPlacement& placement : placements_) add_placement(placement);
-    if (!mesh_.normals.empty()) mesh_.normals.resize(mesh_.positions.size(), glm::vec3(0));
-    if (!mesh_.colors.empty()) mesh_.colors.resize(mesh_.positions.size(), glm::vec3(1));
+    if (!mesh_.normals.empty()) mesh_.normals.resize(places_.size(), glm::vec3(0));
+    if (!mesh_.colors.empty()) mesh_.colors.resize(places_.size(), glm::vec3(1));
     if (!mesh_.texcoords.empty()) mesh_.texcoords.resize(3 * mesh_.triangles.size(), glm::vec2(0));
     material_ids_.finish(std::move(materials_), mesh_);
+    place_vertices(places_, corners_of(mesh_), mesh_, remarks_);
     return std::move(mesh_);
   }
 
@@ -116,7 +118,7 @@ class GltfFlattener {
     if (n_morphed > kMostMorphed)
       throw InputError(gltf_.file.string(), "",
                        "its morph targets have too many vertices to add up");
-    mesh_.positions.reserve(static_cast<std::size_t>(n_vertices));
+    places_.reserve(static_cast<std::size_t>(n_vertices));
     mesh_.triangles.reserve(static_cast<std::size_t>(n_triangles));
   }
 
@@ -130,7 +132,7 @@ class GltfFlattener {
       std::vector<std::uint32_t> first;  // of each list of vertices
       std::vector<std::vector<bool>> is_mirrored;
       for (const GltfVertices& vertices : mesh->vertices) {
-        first.push_back(static_cast<std::uint32_t>(mesh_.positions.size()));
+        first.push_back(static_cast<std::uint32_t>(places_.size()));
         is_mirrored.emplace_back();
         if (vertices.n_influences > 0)
           is_mirrored.back() = add_bound_vertices(vertices, placement.skin);
@@ -147,10 +149,10 @@ class GltfFlattener {
 
   void add_vertex(const GltfVertices& from, std::size_t v, const VertexTransform& transform) {
     if (!from.normals.empty()) {
-      mesh_.normals.resize(mesh_.positions.size(), glm::vec3(0));
+      mesh_.normals.resize(places_.size(), glm::vec3(0));
       mesh_.normals.push_back(transform.normal(from.normals[v]));
     }
-    mesh_.positions.emplace_back(transform.world * glm::dvec4(from.positions[v], 1));
+    places_.emplace_back(transform.world * glm::dvec4(from.positions[v], 1));
   }
 
   // Each by the sum of its joints' matrices. Gives which of them are mirrored.
@@ -177,7 +179,7 @@ class GltfFlattener {
 
   void add_colors(const GltfVertices& from) {
     if (from.colors.empty()) return;
-    mesh_.colors.resize(mesh_.positions.size() - from.positions.size(), glm::vec3(1));
+    mesh_.colors.resize(places_.size() - from.positions.size(), glm::vec3(1));
     mesh_.colors.insert(mesh_.colors.end(), from.colors.begin(), from.colors.end());
   }
 
@@ -208,6 +210,7 @@ class GltfFlattener {
   MeshCache cache_;
   std::vector<std::string> material_names_;
   TriMesh mesh_;
+  std::vector<glm::dvec3> places_;  // of its vertices
   MaterialIds material_ids_;
   std::vector<std::int32_t> materials_;
 };

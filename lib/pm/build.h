@@ -49,9 +49,9 @@ struct BuildOptions {
   float min_cosine = 0.2f;         ///< a normal may turn by up to acos of this
   bool total_error = true;         ///< aps, mapping: distance to the input, not to the step before
   Measure measure = Measure::max;  ///< of mapping
-  QemOptions qem;                  ///< of qem3 and qem5
+  QemOptions qem = {};             ///< of qem3 and qem5
   double texture_weight = 1;       ///< of qem5, see TextureQemOptions
-  LindstromTurkOptions lt;         ///< of lt
+  LindstromTurkOptions lt = {};    ///< of lt
 };
 
 /// What a build needs of texture coordinates.

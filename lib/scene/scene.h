@@ -35,8 +35,8 @@ struct SceneMesh {
   /// "file": as the file has it; "centre": its box's middle is the origin; "ground": the middle at
   /// x = y = 0, the lowest point at z = 0.
   std::string place = "file";
-  std::string substitutes;  ///< what this mesh stands in for; empty: it is what its name says
-  std::string hash;         ///< hash_hex() of the bytes that were parsed
+  std::string substitutes;      ///< what this mesh stands in for; empty: it is what its name says
+  std::string hash;             ///< hash_hex() of the bytes that were parsed
   std::size_t n_triangles = 0;  ///< known even when the scene was read without meshes
   TriMesh mesh;     ///< as drawn, one normal a vertex; empty when the scene was read without meshes
   VertexWeld weld;  ///< which of its vertices are one
@@ -91,7 +91,7 @@ struct Scene {
 struct ReadSceneOptions {
   bool with_meshes = true;  ///< false: only scene.json is parsed; meshes stay empty
   int n_threads = 0;
-  MeshLimits limits;  ///< of each mesh file
+  MeshLimits limits = {};  ///< of each mesh file
 };
 
 /// Whether `up` is one of "x", "y", "z", "-x", "-y", "-z".

@@ -132,7 +132,7 @@ TEST(GltfAttributes, TheTextureSaysWhichCoordinates) {
             expected);
   Remarks remarks;
   EXPECT_TRUE(read_textured(R"({"index": 0, "texCoord": 2})", 1, &remarks).texcoords.empty());
-  EXPECT_EQ(count_of(remarks, "without the texture coordinates that their texture asks for"), 1u);
+  EXPECT_EQ(count_said(remarks, "without the texture coordinates that their texture asks for"), 1u);
   // Without a texture, the first set that there is; without base colour, another slot's.
   GltfBuilder file = one_triangle();
   file.attributes()["TEXCOORD_1"] = file.add<float>({0, 0, 1, 0, 0, 1}, "VEC2");
@@ -185,7 +185,7 @@ TEST(GltfAttributes, PicturesThatDoNotRepeat) {
     file.primitive()["material"] = 0;
     Remarks remarks;
     file.read(&remarks);
-    return count_of(remarks, "clamped or mirrored");
+    return count_said(remarks, "clamped or mirrored");
   };
   EXPECT_EQ(count(33648, 1.5f), 1u);
   EXPECT_EQ(count(33071, 1.5f), 1u);

@@ -87,7 +87,7 @@ inline GltfBuilder indexed_cube() {
 }
 
 /// How often the remark was made; 0: it was not.
-inline std::size_t count_of(const Remarks& remarks, const std::string& part) {
+inline std::size_t count_said(const Remarks& remarks, const std::string& part) {
   for (const Remark& remark : remarks)
     if (remark.what.find(part) != std::string::npos) return remark.count;
   return 0;

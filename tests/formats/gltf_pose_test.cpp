@@ -157,7 +157,7 @@ TEST(GltfSkins, WeightsOfAnyKind) {
   file.attributes().erase("JOINTS_1");
   Remarks remarks;
   expect_at(file.read(&remarks), 2, {0, 1, 5});
-  EXPECT_EQ(count_of(remarks, "vertices without weights"), 1u);
+  EXPECT_EQ(count_said(remarks, "vertices without weights"), 1u);
 }
 
 TEST(GltfSkins, NormalsAndSidesFollow) {
@@ -188,7 +188,7 @@ TEST(GltfSkins, WrongOnes) {
   file.attributes().erase("JOINTS_0");
   Remarks remarks;
   expect_at(file.read(&remarks), 0, {100, 0, 0});
-  EXPECT_EQ(count_of(remarks, "with a skin and without joints"), 1u);
+  EXPECT_EQ(count_said(remarks, "with a skin and without joints"), 1u);
 }
 
 // What a file has beside a mesh at rest is said once, with its number.
@@ -206,10 +206,10 @@ TEST(GltfScene, WhatIsLeftOutIsSaid) {
   file.json["scene"] = 1;
   Remarks remarks;
   EXPECT_EQ(file.read(&remarks).triangles.size(), 2u);
-  EXPECT_EQ(count_of(remarks, "animations, not played"), 2u);
-  EXPECT_EQ(count_of(remarks, "points or lines, left out"), 3u);
-  EXPECT_EQ(count_of(remarks, "scenes beside the default one"), 1u);
-  EXPECT_EQ(count_of(remarks, "not visible"), 1u);
+  EXPECT_EQ(count_said(remarks, "animations, not played"), 2u);
+  EXPECT_EQ(count_said(remarks, "points or lines, left out"), 3u);
+  EXPECT_EQ(count_said(remarks, "scenes beside the default one"), 1u);
+  EXPECT_EQ(count_said(remarks, "not visible"), 1u);
 }
 
 // In a strip, triangles with a corner twice lead from one part to the next.

@@ -37,7 +37,7 @@ std::vector<Camera> make_cameras() {
 Outcome play_bundle(const fs::path& folder) {
   Outcome out;
   try {
-    const Bundle bundle(folder, 1);
+    const Bundle bundle(folder, {.n_threads = 1});
     PlayerOptions options;
     options.width_px = options.height_px = 32;
     options.n_threads = 1;
