@@ -3,9 +3,16 @@
 
 #include <cstdint>
 #include <cstdio>
+#include <memory>
 #include <string>
 
 namespace viewcell {
+
+/// An open file that closes itself.
+struct CloseStream {
+  void operator()(std::FILE* stream) const { std::fclose(stream); }
+};
+using Stream = std::unique_ptr<std::FILE, CloseStream>;
 
 /// Walks the headers and chunk tables of a scan-line EXR, of one part or many, and holds that
 /// - it is one: no tiles, no deep data;
