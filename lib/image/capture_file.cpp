@@ -21,12 +21,6 @@
 #include "image/library.h"
 
 namespace viewcell {
-// Not in the namespace without a name: CaptureFile::Input, which others know of, holds one.
-struct CloseStream {
-  void operator()(std::FILE* stream) const { std::fclose(stream); }
-};
-using Stream = std::unique_ptr<std::FILE, CloseStream>;
-
 namespace {
 
 constexpr const char* kEmptyName = "empty";

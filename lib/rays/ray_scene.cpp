@@ -1,10 +1,12 @@
 #include "rays/ray_scene.h"
 
 #include <embree3/rtcore.h>
+#include <limits>
 
 #include <algorithm>
 #include <atomic>
 #include <glm/gtc/type_ptr.hpp>
+#include <limits>
 #include <mutex>
 #include <string>
 #include <utility>
@@ -168,8 +170,15 @@ void RayScene::intersect(const RayMask& mask, RayPacket& packet) const {
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  // Where the processor has no AVX-512, Embree 3 casts all 16 rays, whatever the mask says; those
+  // that end before they begin hit nothing.
+  const RayPacket::Lanes<float> far = packet.far;
+  for (std::size_t i = 0; i < far.size(); ++i)
+    if (mask.lanes[i] == 0) packet.far[i] = -std::numeric_limits<float>::infinity();
   rtcIntersect16(mask.lanes.data(), rtc_scene(scene_.get()), &context,
                  reinterpret_cast<RTCRayHit16*>(&packet));
+  for (std::size_t i = 0; i < far.size(); ++i)
+    if (mask.lanes[i] == 0) packet.far[i] = far[i];
 }
 
 void RayScene::visit_near(const glm::vec3& p, float radius, VisitNear visit, void* user) const {

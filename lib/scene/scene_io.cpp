@@ -241,7 +241,7 @@ void remark_scene_keys(const JsonCursor& root, Remarks& remarks) {
   constexpr const char* kSky[] = {"color"};
   constexpr const char* kLight[] = {"toward_light", "color", "ambient_sky", "ambient_ground"};
   constexpr const char* kMaterial[] = {"name", "base_color", "base_color_texture", "double_sided"};
-  constexpr const char* kMesh[] = {"name",   "file",      "up",   "scale",
+  constexpr const char* kMesh[] = {"name",  "file",      "up",   "scale",
                                    "place", "triangles", "hash", "substitutes"};
   constexpr const char* kObject[] = {"name",        "mesh",     "material",
                                      "translation", "rotation", "scale"};

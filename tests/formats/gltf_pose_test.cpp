@@ -5,15 +5,16 @@
 
 #include "common/expect_input_error.h"
 #include "gltf_builder.h"
+#include "mesh/offset.h"
 
 namespace viewcell {
 namespace {
 
 void expect_at(const TriMesh& mesh, std::size_t v, const glm::vec3& p) {
   ASSERT_LT(v, mesh.positions.size());
-  EXPECT_NEAR(glm::distance(mesh.positions[v], p), 0, 1e-5)
-      << v << ": " << mesh.positions[v].x << " " << mesh.positions[v].y << " "
-      << mesh.positions[v].z;
+  const glm::dvec3 at = place_of(mesh, v);
+  EXPECT_NEAR(glm::distance(at, glm::dvec3(p)), 0, 1e-5)
+      << v << ": " << at.x << " " << at.y << " " << at.z;
 }
 
 double area_z(const TriMesh& mesh, std::size_t t) {

@@ -253,7 +253,8 @@ TEST(FarScene, IsRefusedWhereFloatsAreTooCoarse) {
   EXPECT_INPUT_ERROR(read_scene(far.write()), "objects[1].translation: takes 'tall' to where");
   EXPECT_INPUT_ERROR(read_scene(far.write()), "\"place\": \"centre\"");
   far.json()["meshes"][1]["place"] = "middle";
-  EXPECT_INPUT_ERROR(read_scene(far.write()), "meshes[1].place: 'middle' is not file, centre or ground");
+  EXPECT_INPUT_ERROR(read_scene(far.write()),
+                     "meshes[1].place: 'middle' is not file, centre or ground");
 }
 
 TEST(FarScene, IsBroughtNearByItsTranslation) {

@@ -50,9 +50,10 @@ void declare_arguments(Tool& tool, MeshdistArguments& arguments) {
                   "end its last part here, not at max: the same parts for several meshes")
       .check(within(1e-30, 1e30))
       .needs("--histogram");
-  tool.add_option("--fail-above", &arguments.fail_above,
-                  "exit with 5 when the symmetric maximum, or that of a point cloud, is above this, or "
-                  "0.1%: of A's box's diagonal")
+  tool.add_option(
+          "--fail-above", &arguments.fail_above,
+          "exit with 5 when the symmetric maximum, or that of a point cloud, is above this, or "
+          "0.1%: of A's box's diagonal")
       .check(length_within(0, 1e300));
   tool.add_mesh_limit(tool);
   tool.add_output("write the table to this file (default -: standard output)", false);
