@@ -181,11 +181,7 @@ std::vector<double> by_vertex(const Direction& direction) {
 
 // Of a point cloud, all points.
 Box box_of(const TriMesh& mesh) {
-  if (mesh.triangles.empty()) return bounding_box(mesh);
-  Box box;
-  for (const Triangle& t : mesh.triangles)
-    for (const std::uint32_t v : t) box.add(glm::dvec3(mesh.positions[v]));
-  return box;
+  return mesh.triangles.empty() ? bounding_box(mesh) : surface_box(mesh);
 }
 
 Box join(const Box& a, const Box& b) {

@@ -10,6 +10,7 @@
 #include "formats/texture_list.h"
 #include "mesh/edges.h"
 #include "mesh/surface_samples.h"
+#include "mesh/used_vertices.h"
 
 namespace viewcell {
 namespace {
@@ -121,9 +122,7 @@ MeshInfo measure_mesh_file(const fs::path& file, int texture_px) {
   info.n_vertices = mesh.positions.size();
   info.n_triangles = mesh.triangles.size();
   info.offset = mesh.offset;
-  Box box;
-  for (const Triangle& t : mesh.triangles)
-    for (const std::uint32_t v : t) box.add(glm::dvec3(mesh.positions[v]));
+  const Box box = surface_box(mesh);
   info.box = {box.lo + mesh.offset, box.hi + mesh.offset};
   info.area = surface_area(mesh);
   TriMesh welded = weld(mesh, info.n_places);

@@ -6,6 +6,7 @@
 #include "base/file.h"
 #include "base/parallel.h"
 #include "formats/mesh_file.h"
+#include "mesh/used_vertices.h"
 #include "scene/scene.h"
 
 namespace viewcell {
@@ -161,9 +162,7 @@ SceneObject read_object(const JsonCursor& cursor, const Scene& scene) {
 
 // Positions about the middle of the box of the vertices that triangles use.
 void centre_positions(TriMesh& mesh) {
-  Box box;
-  for (const Triangle& t : mesh.triangles)
-    for (const std::uint32_t v : t) box.add(glm::dvec3(mesh.positions[v]));
+  const Box box = surface_box(mesh);
   for (glm::vec3& p : mesh.positions) p = glm::vec3(glm::dvec3(p) - box.centre());
   mesh.offset = glm::dvec3(0);
 }
@@ -182,9 +181,7 @@ void apply_up_and_scale(SceneMesh& mesh) {
 
 // After that: the middle of what triangles show at x = y = 0, its lowest point at z = 0.
 void set_on_ground(TriMesh& mesh) {
-  Box box;
-  for (const Triangle& t : mesh.triangles)
-    for (const std::uint32_t v : t) box.add(glm::dvec3(mesh.positions[v]));
+  const Box box = surface_box(mesh);
   const glm::dvec3 foot(box.centre().x, box.centre().y, box.lo.z);
   for (glm::vec3& p : mesh.positions) p = glm::vec3(glm::dvec3(p) - foot);
   mesh.offset = glm::dvec3(0);

@@ -55,6 +55,9 @@ says report.json '[.forward, .backward | .histogram] == [[0, 0, 1000, 0], [0, 0,
 says report.json '.histogram_to == 2' || fail "histogram_to: $(cat report.json)"
 grep -Eq '^1.5 +100.0000 +100.0000$' "$log/out" || fail "lines of another range"
 
+# A limit that is typed holds for what is read.
+fault 1 "at most 1 are read (--max-triangles N)" "$meshdist" low.off high.off --max-triangles 1
+
 # Units: those of A, or of the unit cube; any size.
 expect 0 "$meshdist" low.off high.off --samples 1000 --unit-cube
 grep -Eq '^symmetric +0.5 +0.5 +0.5 ' "$log/out" || fail "--unit-cube does not halve"

@@ -69,4 +69,20 @@ inline TriMesh join_meshes(TriMesh a, const TriMesh& b) {
   return a;
 }
 
+/// Every triangle with vertices of its own, each coordinate off by up to `noise`.
+inline TriMesh make_noisy_soup(const TriMesh& mesh, double noise, std::uint64_t seed) {
+  Random random(seed);
+  TriMesh out;
+  for (const Triangle& t : mesh.triangles) {
+    const auto first = static_cast<std::uint32_t>(out.positions.size());
+    out.triangles.push_back({first, first + 1, first + 2});
+    for (const std::uint32_t v : t) {
+      glm::dvec3 p(mesh.positions[v]);
+      for (int k = 0; k < 3; ++k) p[k] += random.uniform(-noise, noise);
+      out.positions.emplace_back(p);
+    }
+  }
+  return out;
+}
+
 }  // namespace viewcell

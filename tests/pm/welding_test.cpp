@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "mesh/surface_distance.h"
+#include "mesh/surfaces.h"
 #include "pm/build.h"
 #include "pm/shapes.h"
 #include "pm/ways.h"
@@ -9,27 +10,12 @@
 namespace viewcell {
 namespace {
 
-TriMesh make_soup_of(const TriMesh& mesh, double noise, std::uint64_t seed) {
-  Random random(seed);
-  TriMesh out;
-  for (const Triangle& t : mesh.triangles) {
-    const auto first = static_cast<std::uint32_t>(out.positions.size());
-    out.triangles.push_back({first, first + 1, first + 2});
-    for (const std::uint32_t v : t) {
-      glm::dvec3 p(mesh.positions[v]);
-      for (int k = 0; k < 3; ++k) p[k] += random.uniform(-noise, noise);
-      out.positions.emplace_back(p);
-    }
-  }
-  return out;
-}
-
 TEST(WeldedSoup, CollapsesAsASurface) {
   const TriMesh sphere = make_noisy_sphere(4, 0, 1);
   for (const Way& way : std::span(kWays).first(3))
     for (const double noise : {0.0, 1e-6, 1e-5}) {
       SCOPED_TRACE(testing::Message() << metric_name(way.metric) << " noise " << noise);
-      const TriMesh soup = make_soup_of(sphere, noise, 2);
+      const TriMesh soup = make_noisy_soup(sphere, noise, 2);
       const BuildResult built = build_progressive_mesh(soup, options_of(way));
       EXPECT_EQ(built.n_welded, soup.positions.size() - sphere.positions.size());
       EXPECT_EQ(built.welded_apart.n_welded > 0, noise > 0);
@@ -50,7 +36,7 @@ TEST(WeldedSoup, CollapsesAsASurface) {
 }
 
 TEST(WeldedSoup, StaysApartWhenAsked) {
-  const TriMesh soup = make_soup_of(make_octahedron(), 1e-6, 3);
+  const TriMesh soup = make_noisy_soup(make_octahedron(), 1e-6, 3);
   BuildOptions options;
   options.weld_tolerance = 0;
   const BuildResult apart = build_progressive_mesh(soup, options);
@@ -69,7 +55,7 @@ TEST(WeldedSoup, StaysApartWhenAsked) {
 
 // What a level may be off counts what welding has moved.
 TEST(WeldedSoup, BoundsHoldTheGap) {
-  const TriMesh soup = make_soup_of(make_noisy_sphere(3, 0.1, 4), 1e-3, 5);
+  const TriMesh soup = make_noisy_soup(make_noisy_sphere(3, 0.1, 4), 1e-3, 5);
   BuildOptions options;
   options.weld_tolerance = 0.01;
   options.error_bound = 0.15f;

@@ -14,35 +14,25 @@ inline MeshLimits mesh_limits(const Tool& tool) {
   return {.max_triangles = tool.common().max_triangles};
 }
 
-/// read_mesh (formats/mesh_file.h) within mesh_limits(); its remarks go to the tool. hash: of the
-/// file's bytes, if wanted.
+/// What `read` (read_mesh or read_surface_or_points) makes of the file within
+/// mesh_limits(); its remarks go to the tool. hash: of the file's bytes, if wanted.
+template <typename Read>
+TriMesh read_input(const Tool& tool, const std::filesystem::path& file, std::string* hash,
+                   const Read& read) {
+  MeshSource source;
+  TriMesh mesh = read(file, &source, mesh_limits(tool));
+  tool.remark(file, source.remarks);
+  if (hash != nullptr) *hash = source.hash;
+  return mesh;
+}
+
 inline TriMesh read_mesh_input(const Tool& tool, const std::filesystem::path& file,
                                std::string* hash = nullptr) {
-  MeshSource source;
-  TriMesh mesh = read_mesh(file, &source, mesh_limits(tool));
-  tool.remark(file, source.remarks);
-  if (hash != nullptr) *hash = source.hash;
-  return mesh;
+  return read_input(tool, file, hash, read_mesh);
 }
-
-/// read_surface likewise.
-inline TriMesh read_surface_input(const Tool& tool, const std::filesystem::path& file,
-                                  std::string* hash = nullptr) {
-  MeshSource source;
-  TriMesh mesh = read_surface(file, &source, mesh_limits(tool));
-  tool.remark(file, source.remarks);
-  if (hash != nullptr) *hash = source.hash;
-  return mesh;
-}
-
-/// read_surface_or_points likewise.
 inline TriMesh read_surface_or_points_input(const Tool& tool, const std::filesystem::path& file,
                                             std::string* hash = nullptr) {
-  MeshSource source;
-  TriMesh mesh = read_surface_or_points(file, &source);
-  tool.remark(file, source.remarks);
-  if (hash != nullptr) *hash = source.hash;
-  return mesh;
+  return read_input(tool, file, hash, read_surface_or_points);
 }
 
 }  // namespace viewcell
