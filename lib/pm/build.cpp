@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "base/error.h"
+#include "pm/border_edges.h"
 #include "pm/recorded_metric.h"
 #include "pm/recorder.h"
 #include "pm/wedge_mesh.h"
@@ -49,7 +50,8 @@ struct Units {
 // Runs the loop in slices, for the progress.
 template <typename Metric>
 CollapseCounts collapse_all(CollapseMesh& mesh, Metric& metric, Recorder& recorder,
-                            CollapseBound* guard, ChartGuard* charts, const Units& units,
+                            CollapseBound* guard, ChartGuard* charts,
+                            const std::vector<bool>& locked, const Units& units,
                             const BuildOptions& options, const Progress& progress) {
   constexpr std::size_t kSlices = 100;
   RecordedMetric<Metric> recorded{mesh,
@@ -58,7 +60,8 @@ CollapseCounts collapse_all(CollapseMesh& mesh, Metric& metric, Recorder& record
                                   guard,
                                   units.in_metric(options.error_bound - units.gap),
                                   texture_needs(options).no_folds,
-                                  charts};
+                                  charts,
+                                  locked};
   CollapseLoop loop(mesh, recorded);
   const std::size_t start = mesh.n_triangles();
   const std::size_t span = start - std::min(start, std::max<std::size_t>(options.target_faces, 1));
@@ -91,8 +94,8 @@ CollapseCounts collapse_all(CollapseMesh& mesh, Metric& metric, Recorder& record
 // triangles: without copies.
 CollapseCounts run_metric(CollapseMesh& mesh, WedgeMesh& wedges,
                           const std::vector<Triangle>& triangles, Recorder& recorder,
-                          const Units& units, const BuildOptions& options,
-                          const Progress& progress) {
+                          const std::vector<bool>& locked, const Units& units,
+                          const BuildOptions& options, const Progress& progress) {
   std::span<glm::vec3> positions = wedges.positions;
   std::optional<CollapseBound> guard;
   if (options.track_error || std::isfinite(options.error_bound))
@@ -102,7 +105,7 @@ CollapseCounts run_metric(CollapseMesh& mesh, WedgeMesh& wedges,
     charts.emplace(wedges, options.charts_apart_px);
   const auto run = [&](auto&& metric) {
     return collapse_all(mesh, metric, recorder, guard ? &*guard : nullptr,
-                        charts ? &*charts : nullptr, units, options, progress);
+                        charts ? &*charts : nullptr, locked, units, options, progress);
   };
   if (options.metric == MetricKind::mapping && options.placement == Placement::full) {
     if (options.measure == Measure::mean)
@@ -211,7 +214,10 @@ BuildResult build_progressive_mesh(const TriMesh& mesh, const BuildOptions& opti
   BuildResult result;
   result.pieces = count_pieces(triangles, wedges.positions.size());
   triangles = without_copies(std::move(triangles), copies);
-  result.counts = run_metric(work, wedges, triangles, recorder, units, options, progress);
+  std::vector<bool> locked;
+  if (options.lock_borders) locked = find_border_vertices(triangles, wedges.positions.size());
+  result.n_locked = static_cast<std::size_t>(std::count(locked.begin(), locked.end(), true));
+  result.counts = run_metric(work, wedges, triangles, recorder, locked, units, options, progress);
   result.record = recorder.finish();
   result.n_welded = wedges.n_welded;
   result.n_dropped = wedges.n_dropped;

@@ -35,6 +35,9 @@ struct BuildOptions {
   /// Collapses after which the surface might be farther than this from the input, or the input from
   /// it, are refused; mesh units. What welding moved counts.
   float error_bound = std::numeric_limits<float>::infinity();
+  /// Vertices of edges with one triangle neither move nor vanish: neighbouring tiles that are built
+  /// one by one still fit.
+  bool lock_borders = false;
   /// Every level knows its error(), whatever the metric. Levels of aps and mapping do (total, max),
   /// and those of an error bound.
   bool track_error = false;
@@ -76,6 +79,7 @@ struct BuildResult {
   double weld_tolerance = 0;  ///< as used
   BorderWeld welded_apart;    ///< vertices not at the position of the one that they are welded to
   PieceCounts pieces;         ///< of the input, welded
+  std::size_t n_locked = 0;   ///< vertices
 };
 
 /// Throws InputError when the metric needs what the mesh has not, UsageError for a metric that has

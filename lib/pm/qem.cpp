@@ -1,43 +1,9 @@
 #include "pm/qem.h"
 
-#include <algorithm>
-#include <utility>
+#include "pm/border_edges.h"
 
 namespace viewcell {
 namespace {
-
-struct EdgeUse {
-  std::uint32_t a, b;  // a < b
-  std::uint32_t triangle;
-};
-
-// The edges that belong to exactly one triangle, by their ends.
-std::vector<EdgeUse> find_boundary_edges(std::span<const Triangle> triangles, std::size_t n) {
-  const auto for_each_edge = [&](auto&& visit) {
-    for (std::uint32_t t = 0; t < triangles.size(); ++t)
-      for (std::size_t k = 0; k < 3; ++k) {
-        const auto [a, b] = std::minmax(triangles[t][k], triangles[t][(k + 1) % 3]);
-        visit(a, b, t);
-      }
-  };
-  std::vector<std::uint32_t> first(n + 1, 0);  // of each lower end's edges
-  for_each_edge([&](std::uint32_t a, std::uint32_t, std::uint32_t) { ++first[a + 1]; });
-  for (std::size_t v = 0; v < n; ++v) first[v + 1] += first[v];
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> uses(3 * triangles.size());  // b, triangle
-  std::vector<std::uint32_t> next(first.begin(), first.end() - 1);
-  for_each_edge([&](std::uint32_t a, std::uint32_t b, std::uint32_t t) {
-    uses[next[a]++] = {b, t};
-  });
-  std::vector<EdgeUse> boundary;
-  for (std::uint32_t a = 0; a < n; ++a) {
-    std::sort(uses.begin() + first[a], uses.begin() + first[a + 1]);
-    for (std::uint32_t i = first[a], j = i; i < first[a + 1]; i = j) {
-      while (j < first[a + 1] && uses[j].first == uses[i].first) ++j;
-      if (j - i == 1) boundary.push_back({a, uses[i].first, uses[i].second});
-    }
-  }
-  return boundary;
-}
 
 // Half the cross product of two sides; at(v): the position of vertex v.
 template <typename At>
@@ -46,13 +12,13 @@ glm::dvec3 area_vector(const At& at, const Triangle& t) {
 }
 
 // The quadrics of the planes through boundary edges.
-LargeVector<Quadric> sum_boundary_planes(const std::vector<EdgeUse>& edges,
+LargeVector<Quadric> sum_boundary_planes(const std::vector<BorderEdge>& edges,
                                          std::span<const glm::vec3> positions,
                                          std::span<const Triangle> triangles,
                                          const glm::dvec3& centre, const QemOptions& options) {
   LargeVector<Quadric> quadrics(positions.size());
   const auto at = [&](std::uint32_t v) { return glm::dvec3(positions[v]) - centre; };
-  for (const EdgeUse& edge : edges) {
+  for (const BorderEdge& edge : edges) {
     const glm::dvec3 along = at(edge.b) - at(edge.a);
     const glm::dvec3 across = glm::cross(along, area_vector(at, triangles[edge.triangle]));
     const double length = glm::length(across);
@@ -87,7 +53,7 @@ QuadricScale make_quadric_scale(std::span<const glm::vec3> positions,
 LargeVector<Quadric> make_boundary_quadrics(std::span<const glm::vec3> positions,
                                             std::span<const Triangle> triangles,
                                             const glm::dvec3& centre, const QemOptions& options) {
-  return sum_boundary_planes(find_boundary_edges(triangles, positions.size()), positions, triangles,
+  return sum_boundary_planes(find_border_edges(triangles, positions.size()), positions, triangles,
                              centre, options);
 }
 
@@ -103,7 +69,7 @@ LargeVector<Quadric> make_quadrics(std::span<const glm::vec3> positions,
     const double weight = options.area_weighted ? area / 3 : 1;
     for (const std::uint32_t v : t) quadrics[v].add_plane(normal / area, at(v), weight);
   }
-  const std::vector<EdgeUse> edges = find_boundary_edges(triangles, positions.size());
+  const std::vector<BorderEdge> edges = find_border_edges(triangles, positions.size());
   if (edges.empty()) return quadrics;
   const LargeVector<Quadric> boundaries =
       sum_boundary_planes(edges, positions, triangles, centre, options);

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cmath>
+#include <limits>
+#include <vector>
 
 #include "mesh/closest_on_segment.h"
 #include "pm/collapse_loop.h"
@@ -19,11 +21,12 @@ struct RecordedMetric {
   Recorder& recorder;
   CollapseBound* guard;  ///< for the error bound, or none
   float error_bound;
-  bool refuse_folds;   ///< in the texture
-  ChartGuard* charts;  ///< to keep them apart, or none
+  bool refuse_folds;                ///< in the texture
+  ChartGuard* charts;               ///< to keep them apart, or none
+  const std::vector<bool>& locked;  ///< vertices that neither move nor vanish; empty: none
   /// Where an edge may go in a full-edge collapse: nowhere, to its end v (from inside a chart to
-  /// its border, from a border to where borders meet, to a hub), to a point on itself (along a
-  /// border), anywhere.
+  /// its border, from a border to where borders meet, to what is locked or a hub), to a point on
+  /// itself (along a border), anywhere.
   enum class Way { none, to_end, along, free };
   glm::vec3 last_position{0};
   Way last_way = Way::free;
@@ -35,11 +38,22 @@ struct RecordedMetric {
   }();
 
   float cost(std::uint32_t u, std::uint32_t v) {
-    if constexpr (requires { metric.cost_at(u, v, last_position); })
-      if (const Way way = find_way(u, v); way == Way::to_end || way == Way::along)
-        return metric.cost_at(u, v, optimal_position(u, v));
+    if constexpr (!kHasPlacement) {
+      if (is_locked(u)) return std::numeric_limits<float>::infinity();
+    } else {
+      const Way way = find_way(u, v);
+      if constexpr (requires { metric.cost_at(u, v, last_position); }) {
+        if (way == Way::to_end || way == Way::along)
+          return metric.cost_at(u, v, optimal_position(u, v));
+      } else if (way == Way::to_end) {
+        return metric.cost_at_end(u, v);
+      }
+    }
     return metric.cost(u, v);
   }
+  bool is_locked(std::uint32_t v) const { return !locked.empty() && locked[v]; }
+  /// Of full-edge collapses: where v is, or nowhere.
+  bool must_stay(std::uint32_t v) const { return mesh.is_hub(v) || is_locked(v); }
   void fetch(std::uint32_t v) const requires requires(Metric m) { m.fetch(v); }
   { metric.fetch(v); }
   float cost_at_least(std::uint32_t u, std::uint32_t v) requires requires(Metric m) {
@@ -47,10 +61,10 @@ struct RecordedMetric {
   }
   { return metric.cost_at_least(u, v); }
   Way find_way(std::uint32_t u, std::uint32_t v) requires kHasPlacement {
-    if (mesh.is_hub(u)) return Way::none;
-    if (recorder.texcoords().empty()) return mesh.is_hub(v) ? Way::to_end : Way::free;
+    if (must_stay(u)) return Way::none;
+    if (recorder.texcoords().empty()) return must_stay(v) ? Way::to_end : Way::free;
     if (!recorder.match(mesh, u, v)) return Way::none;
-    if (mesh.is_hub(v) || !recorder.table().match_both(mesh, v)) return Way::to_end;
+    if (must_stay(v) || !recorder.table().match_both(mesh, v)) return Way::to_end;
     return n_charts() < 2 ? Way::free : Way::along;
   }
   /// Of the last match: charts that hold both ends. Of two-sided sheets one side's, unless the

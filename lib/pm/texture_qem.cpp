@@ -79,6 +79,11 @@ float TextureQemMetric::cost(std::uint32_t u, std::uint32_t v) {
   return quadrics_.cost_at_parent(mesh_, wedges_, u, v);
 }
 
+float TextureQemFullMetric::cost_at_end(std::uint32_t u, std::uint32_t v) {
+  if (!wedges_.match(mesh_, u, v)) return std::numeric_limits<float>::infinity();
+  return quadrics_.cost_at_parent(mesh_, wedges_, u, v);
+}
+
 const TextureQemFullMetric::Evaluated& TextureQemFullMetric::evaluate(std::uint32_t u,
                                                                       std::uint32_t v) {
   last_ = {std::numeric_limits<float>::infinity(), positions_[v], {}};

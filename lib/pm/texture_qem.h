@@ -84,6 +84,8 @@ class TextureQemFullMetric {
         quadrics_(input, positions, triangles, texcoords, options) {}
 
   float cost(std::uint32_t u, std::uint32_t v) { return evaluate(u, v).cost; }
+  /// Where v stays.
+  float cost_at_end(std::uint32_t u, std::uint32_t v);
   glm::vec3 optimal_position(std::uint32_t u, std::uint32_t v) { return evaluate(u, v).position; }
   /// Of the last optimal_position(): texture coordinates for its one pair of wedges, if there is
   /// one.

@@ -65,6 +65,9 @@ void declare_build(Tool& tool, PmeshArguments& a) {
                   "at equal positions only (default: 0.001%, but a quarter of the shortest edge "
                   "there at most)")
       .check(length_within(0, 1e30));
+  build.add_flag(
+      "--lock-borders", &a.build.lock_borders,
+      "vertices on borders neither move nor vanish, so that neighbouring tiles still fit");
   build.add_flag("--track-error", &a.build.track_error,
                  "keep a bound of the distance for every level, under any metric (aps, mapping "
                  "and --bounded have it)");

@@ -28,6 +28,7 @@ Json format_options(const BuildOptions& b) {
   if (b.metric == MetricKind::mapping) out["measure"] = b.measure == Measure::mean ? "mean" : "max";
   if (b.weld_tolerance) out["weld_tolerance"] = *b.weld_tolerance;
   if (std::isfinite(b.error_bound)) out["error_bound"] = b.error_bound;
+  if (b.lock_borders) out["lock_borders"] = true;
   if (b.track_error) out["track_error"] = true;
   if (b.refuse_folds) out["refuse_folds"] = true;
   if (b.charts_apart_px > 0) out["charts_apart_px"] = b.charts_apart_px;
@@ -127,6 +128,7 @@ int build(const Tool& tool, const PmeshArguments& a) {
                {"weld_tolerance", result.weld_tolerance},
                {"pieces", result.pieces.n},
                {"pieces_small", result.pieces.n_small},
+               {"vertices_locked", result.n_locked},
                {"faces_dropped", result.n_dropped},
                {"timing", {{"read_s", read_s}, {"build_s", build_s}}}});
   if (!is_short) return 0;
