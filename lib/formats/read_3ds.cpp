@@ -137,11 +137,6 @@ void read_object(ByteCursor cursor, State& state) {
   });
 }
 
-std::span<const std::uint32_t> corners_of(const TriMesh& mesh) {
-  if (mesh.triangles.empty()) return {};
-  return {mesh.triangles[0].data(), 3 * mesh.triangles.size()};
-}
-
 }  // namespace
 
 TriMesh parse_3ds(std::string_view bytes, const std::filesystem::path& file, Remarks* remarks) {

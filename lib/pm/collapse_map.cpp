@@ -61,42 +61,84 @@ bool CollapseMap::locate(std::uint32_t u, std::uint32_t v) {
   if (!gather(u)) return false;
   auto found = std::find_if(located_.begin(), located_.end(), [&](auto& p) { return p.v == v; });
   if (found == located_.end()) {
-    Located located{v, true, locations_.size()};
-    for (const Sector& sector : star_.sectors()) {
-      Location& location = locations_.emplace_back();
-      located.is_legal =
-          located.is_legal && locate_sector(sector, v, location) && choose_face(sector, location);
-    }
-    found = located_.insert(located_.end(), located);
+    const std::size_t first = locations_.size();
+    const glm::dvec3 apex = glm::dvec3(positions_[v]) - glm::dvec3(positions_[u]);
+    const bool is_legal = locate_all(v, apex, locations_);
+    found = located_.insert(located_.end(), {v, is_legal, first, locations_.size() - first});
   }
-  last_ = std::span<const Location>(locations_).subspan(found->first, star_.sectors().size());
+  last_ = std::span<const Location>(locations_).subspan(found->first, found->n);
   return found->is_legal;
 }
 
-bool CollapseMap::locate_sector(const Sector& sector, std::uint32_t v, Location& location) const {
-  const auto& rim = sector.rim;
-  while (location.v < rim.size() && rim[location.v].vertex != v) ++location.v;
-  if (location.v == rim.size()) return false;
-  if (!sector.is_closed && location.v != 0 && location.v + 1 != rim.size()) return false;
-  location.step = sector.is_closed || location.v == 0 ? 1 : -1;
-  location.apex = rim[location.v].to;
+bool CollapseMap::locate_all(std::uint32_t v, const glm::dvec3& apex,
+                             std::vector<Location>& to) const {
+  for (const Sector& sector : star_.sectors()) {
+    const std::size_t n = sector.rim.size();
+    std::size_t i = 0;
+    while (i < n && sector.rim[i].vertex != v) ++i;
+    if (i == n) {
+      if (!locate_moved(sector, v, apex, to)) return false;
+    } else if (sector.is_closed || i == 0 || i + 1 == n) {
+      if (!locate_at(sector, i, apex, to)) return false;
+    } else {
+      if (!sector.is_cut) return false;
+      Sector before = sector, after = sector;
+      before.rim = sector.rim.first(i + 1), after.rim = sector.rim.subspan(i);
+      if (!locate_at(before, i, apex, to) || !locate_at(after, 0, apex, to)) return false;
+    }
+  }
   return true;
 }
 
-// New faces are (v, rim[j], rim[j + 1]) for j in [1, size - 2], open or closed.
-bool CollapseMap::choose_face(const Sector& sector, Location& location) const {
-  location.after = {glm::dvec3(kInfinity)};
-  if (!sector.is_closed)
-    choose_on_edge(sector, location);
-  else if (matching_ == Matching::texture)
-    choose_by_texture(sector, location);
-  else
-    choose_by_distance(sector, location);
-  location.face = Walk{sector, location.v, location.step}.face(location.middle);
+// v is the i-th neighbour.
+bool CollapseMap::locate_at(const Sector& sector, std::size_t i, const glm::dvec3& apex,
+                            std::vector<Location>& to) const {
+  Location& location = to.emplace_back();
+  location.sector = sector;
+  location.v = i;
+  location.step = sector.is_closed || i == 0 ? 1 : -1;
+  location.apex = apex;
+  return choose_face(location);
+}
+
+// In the texture it goes where a fan of its chart goes that v is in; without one u would leave the
+// border of the chart.
+bool CollapseMap::locate_moved(const Sector& sector, std::uint32_t v, const glm::dvec3& apex,
+                               std::vector<Location>& to) const {
+  if (matching_ == Matching::texture) return false;
+  Location& location = to.emplace_back();
+  location.sector = sector;
+  location.is_moved = true;
+  location.apex = apex;
+  const CollapseStar::Rim* met = nullptr;
+  for (const Sector& other : star_.sectors())
+    if (other.chart == sector.chart)
+      for (const CollapseStar::Rim& rim : other.rim)
+        if (rim.vertex == v) met = &rim;
+  if (!met) return false;
+  location.apex_uv = met->uv;
+  const std::optional<Move> move = find_move(sector, {apex, location.apex_uv});
+  if (!move) return false;
+  location.after = move->after;
+  location.face = sector.rim[move->second].face;
   return is_finite(location.after.at);
 }
 
-void CollapseMap::choose_on_edge(const Sector& sector, Location& location) const {
+// New faces are (v, rim[j], rim[j + 1]) for j in [1, size - 2], open or closed.
+bool CollapseMap::choose_face(Location& location) const {
+  location.after = {glm::dvec3(kInfinity)};
+  if (!location.sector.is_closed)
+    choose_on_edge(location);
+  else if (matching_ == Matching::texture)
+    choose_by_texture(location);
+  else
+    choose_by_distance(location);
+  location.face = Walk{location.sector, location.v, location.step}.face(location.middle);
+  return is_finite(location.after.at);
+}
+
+void CollapseMap::choose_on_edge(Location& location) const {
+  const Sector& sector = location.sector;
   const Walk rim{sector, location.v, location.step};
   const std::size_t n = sector.rim.size();
   location.middle = n - 2;
@@ -114,7 +156,8 @@ void CollapseMap::choose_on_edge(const Sector& sector, Location& location) const
 }
 
 // The new face that u's texture coordinates lie in, or the one that they are least outside of.
-void CollapseMap::choose_by_texture(const Sector& sector, Location& location) const {
+void CollapseMap::choose_by_texture(Location& location) const {
+  const Sector& sector = location.sector;
   const Walk rim{sector, location.v, location.step};
   double best = -kInfinity;
   const CollapseStar::Rim& v = rim[0];
@@ -135,7 +178,8 @@ void CollapseMap::choose_by_texture(const Sector& sector, Location& location) co
   }
 }
 
-void CollapseMap::choose_by_distance(const Sector& sector, Location& location) const {
+void CollapseMap::choose_by_distance(Location& location) const {
+  const Sector& sector = location.sector;
   const Walk rim{sector, location.v, location.step};
   double best = kInfinity;
   for (std::size_t j = 1; j + 1 < sector.rim.size(); ++j) {
@@ -161,28 +205,26 @@ bool CollapseMap::build(std::uint32_t u, std::uint32_t v, const glm::dvec3& apex
   overlay_.clear();
   if (!gather(u)) return false;
   moved_.clear();
-  for (const Sector& sector : star_.sectors()) {
-    Location& location = moved_.emplace_back();
-    if (!locate_sector(sector, v, location)) return false;
-    location.apex = apex - glm::dvec3(positions_[u]);
-    if (!choose_face(sector, location)) return false;
-  }
+  if (!locate_all(v, apex - glm::dvec3(positions_[u]), moved_)) return false;
   last_ = moved_;
   return build_located(v);
 }
 
 bool CollapseMap::build_located(std::uint32_t v) {
-  for (std::size_t i = 0; i < last_.size(); ++i) {
-    const Sector& sector = star_.sectors()[i];
-    if (sector.rim.size() > 2)
-      build_sector(sector, last_[i]);
-    else if (!build_vanishing(sector, last_[i], v))
+  for (const Location& location : last_) {
+    if (location.is_moved) {
+      if (!move_sector(location.sector, {location.apex, location.apex_uv})) return false;
+    } else if (location.sector.rim.size() > 2) {
+      build_sector(location);
+    } else if (!build_vanishing(location, v)) {
       return false;
+    }
   }
   return true;
 }
 
-void CollapseMap::build_sector(const Sector& sector, const Location& location) {
+void CollapseMap::build_sector(const Location& location) {
+  const Sector& sector = location.sector;
   const Walk rim{sector, location.v, location.step};
   const std::size_t n = sector.rim.size(), m = location.middle;
   const FanPoint apex{location.apex, rim[0].uv};
@@ -210,7 +252,8 @@ bool CollapseMap::find_face_at(std::uint32_t a, std::uint32_t b, std::uint32_t b
 
 // A triangle that is alone in its sector vanishes but for an edge: some face at that edge inherits
 // its surface.
-bool CollapseMap::build_vanishing(const Sector& sector, const Location& location, std::uint32_t v) {
+bool CollapseMap::build_vanishing(const Location& location, std::uint32_t v) {
+  const Sector& sector = location.sector;
   const Walk rim{sector, location.v, location.step};
   const std::uint32_t u = star_.of(), far = rim[1].vertex;
   std::uint32_t inheriting_face = 0;
@@ -234,8 +277,7 @@ bool CollapseMap::build_move(std::uint32_t v, const glm::dvec3& apex,
     FanPoint location{to};
     for (const WedgeMove& move : texcoords)
       if (move.wedge == sector.wedge) location.texture = glm::dvec2(move.texcoord) - sector.origin;
-    if (!(sector.is_closed ? move_closed(sector, location) : move_open(sector, location)))
-      return false;
+    if (!move_sector(sector, location)) return false;
   }
   return true;
 }
@@ -249,8 +291,13 @@ FanPoint CollapseMap::point_on(const FanPoint& top, const CollapseStar::Rim& b,
   return {at, w.x * top.texture + w.y * b.uv + w.z * c.uv};
 }
 
-// The new apex lies in the old face of ray 0, the old apex in the new face of ray m.
-bool CollapseMap::move_closed(const Sector& sector, const FanPoint& apex) {
+std::optional<CollapseMap::Move> CollapseMap::find_move(const Sector& sector,
+                                                        const FanPoint& apex) const {
+  return sector.is_closed ? find_closed_move(sector, apex) : find_open_move(sector, apex);
+}
+
+std::optional<CollapseMap::Move> CollapseMap::find_closed_move(const Sector& sector,
+                                                               const FanPoint& apex) const {
   const std::size_t n = sector.rim.size();
   const auto at = [&](std::size_t i) -> const CollapseStar::Rim& { return sector.rim[i % n]; };
   glm::dvec3 before(0), after(0);
@@ -268,24 +315,14 @@ bool CollapseMap::move_closed(const Sector& sector, const FanPoint& apex) {
   };
   const std::size_t k = find(apex.at, glm::dvec3(0), n, before);
   const std::size_t face = find(glm::dvec3(0), apex.at, k, after);
-  if (k == n || face == n) return false;
-  overlay_.start(apex, sector.origin);
-  for (std::size_t i = 0; i < n; ++i)
-    overlay_.add_ray({at(k + i).to, at(k + i).uv}, at(k + i).face);
-  overlay_.repeat_ray(0), overlay_.repeat_ray(1);
-  const std::size_t m = (face + n - k) % n;
-  const FanPoint new_on_old = point_on({}, at(k), at(k + 1), before);
-  const FanPoint old_on_new = point_on(apex, at(face), at(face + 1), after);
-  overlay_.add_old_apex(m, old_on_new);
-  overlay_.add_new_apex(0, new_on_old);
-  overlay_.add_side(0, true, m, new_on_old, old_on_new);
-  overlay_.add_side(n + 1, false, n - m, new_on_old, old_on_new);
-  return true;
+  if (k == n || face == n) return {};
+  return Move{k, face, point_on({}, at(k), at(k + 1), before),
+              point_on(apex, at(face), at(face + 1), after)};
 }
 
 // The new apex goes to the nearer of the two old boundary edges, the old apex to the other's new
 // one.
-bool CollapseMap::move_open(const Sector& sector, const FanPoint& apex) {
+CollapseMap::Move CollapseMap::find_open_move(const Sector& sector, const FanPoint& apex) const {
   const std::size_t n = sector.rim.size();
   const auto along = [&](const CollapseStar::Rim& rim) {
     return closest_on_segment(apex.at, glm::dvec3(0), rim.to);
@@ -294,23 +331,49 @@ bool CollapseMap::move_open(const Sector& sector, const FanPoint& apex) {
   const double first = along(sector.rim[0]), last = along(sector.rim[n - 1]);
   const bool is_first = glm::distance(first * sector.rim[0].to, apex.at) <=
                         glm::distance(last * sector.rim[n - 1].to, apex.at);
-  const Walk rim{sector, is_first ? 0 : n - 1, is_first ? 1 : -1};
+  const CollapseStar::Rim &near = sector.rim[is_first ? 0 : n - 1],
+                          &far = sector.rim[is_first ? n - 1 : 0];
   const double s = is_first ? first : last;
-  const FanPoint before{s * rim[0].to, inside(s) * rim[0].uv};
-  const double t = closest_on_segment(glm::dvec3(0), apex.at, rim[n - 1].to);
-  const FanPoint after{glm::mix(apex.at, rim[n - 1].to, t),
-                       glm::mix(apex.texture, rim[n - 1].uv, inside(t))};
-  overlay_.start(apex, sector.origin, !is_first);
+  const double t = closest_on_segment(glm::dvec3(0), apex.at, far.to);
+  const FanPoint after{glm::mix(apex.at, far.to, t), glm::mix(apex.texture, far.uv, inside(t))};
+  return {is_first ? 0 : n - 1,
+          is_first ? n - 2 : 0,
+          {s * near.to, inside(s) * near.uv},
+          n == 2 ? apex : after};
+}
+
+bool CollapseMap::move_sector(const Sector& sector, const FanPoint& apex) {
+  const std::optional<Move> move = find_move(sector, apex);
+  if (!move) return false;
+  sector.is_closed ? move_closed(sector, apex, *move) : move_open(sector, apex, *move);
+  return true;
+}
+
+// The new apex lies in the old face of ray 0, the old apex in the new face of ray m.
+void CollapseMap::move_closed(const Sector& sector, const FanPoint& apex, const Move& move) {
+  const std::size_t n = sector.rim.size(), k = move.first;
+  const auto at = [&](std::size_t i) -> const CollapseStar::Rim& { return sector.rim[i % n]; };
+  overlay_.start(apex, sector.origin);
+  for (std::size_t i = 0; i < n; ++i)
+    overlay_.add_ray({at(k + i).to, at(k + i).uv}, at(k + i).face);
+  overlay_.repeat_ray(0), overlay_.repeat_ray(1);
+  const std::size_t m = (move.second + n - k) % n;
+  overlay_.add_old_apex(m, move.after);
+  overlay_.add_new_apex(0, move.before);
+  overlay_.add_side(0, true, m, move.before, move.after);
+  overlay_.add_side(n + 1, false, n - m, move.before, move.after);
+}
+
+void CollapseMap::move_open(const Sector& sector, const FanPoint& apex, const Move& move) {
+  const std::size_t n = sector.rim.size();
+  const Walk rim{sector, move.first, move.first == 0 ? 1 : -1};
+  overlay_.start(apex, sector.origin, move.first != 0);
   for (std::size_t i = 0; i < n; ++i)
     overlay_.add_ray({rim[i].to, rim[i].uv}, i + 1 < n ? rim.face(i) : 0);
-  if (n == 2) {  // one face before and after
-    overlay_.add_old_apex(0, apex);
-    return true;
-  }
-  overlay_.add_old_apex(n - 2, after);
-  overlay_.add_new_apex(0, before);
-  overlay_.add_side(0, true, n - 2, before, after);
-  return true;
+  overlay_.add_old_apex(n - 2, move.after);
+  if (n == 2) return;  // one face before and after
+  overlay_.add_new_apex(0, move.before);
+  overlay_.add_side(0, true, n - 2, move.before, move.after);
 }
 
 }  // namespace viewcell

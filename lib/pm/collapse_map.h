@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -31,7 +32,9 @@ struct WedgeMove {
 /// where the nearest point is, and crossings follow from that (in the paper the texture decides
 /// which edges cross, and the nearest point may lie in another face than the cells say):
 /// so every cell lies in one old and one new face, and a maximum over corners is one over the cell.
-/// On a boundary of the mesh or of a texture chart u goes to the new boundary edge.
+/// On a boundary of the mesh or of a texture chart u goes to the new boundary edge. A fan of u that
+/// v is not in (beyond an edge of more than two triangles, or where surfaces touch) moves as a
+/// whole to where v is.
 ///
 /// A full-edge collapse is two maps, one after the other: v moves to the new position, by
 /// build_move(), then u collapses into v there, by build() with that apex.
@@ -80,35 +83,53 @@ class CollapseMap {
 
  private:
   using Sector = CollapseStar::Sector;
-  // Where u goes in one sector: into the new face (v, rim middle, rim middle + 1), counted from v.
+  // Where u goes in one sector, or one side of v in it: into the new face (v, rim middle, rim
+  // middle + 1), counted from v.
   struct Location {
-    std::size_t v = 0;  // of the sector's rim
-    int step = 1;       // the way that the sector is walked from v
+    Sector sector;
+    bool is_moved = false;  // v is not in the sector, which keeps its faces
+    std::size_t v = 0;      // of the sector's rim
+    int step = 1;           // the way that the sector is walked from v
     std::size_t middle = 0;
     std::uint32_t face = 0;
-    glm::dvec3 apex{0};  // v, relative to u
-    FanPoint after;      // the point of the new surface for u
+    glm::dvec3 apex{0};     // v, relative to u
+    glm::dvec2 apex_uv{0};  // likewise; of sectors that are moved
+    FanPoint after;         // the point of the new surface for u
   };
-  struct Located {  // the locations in all sectors for one target
+  // How a sector's apex moves: the new one lies in the old face of rim `first`, of open sectors on
+  // the edge to it, the first or the last; the old one in the new face of rim `second`.
+  struct Move {
+    std::size_t first = 0, second = 0;
+    FanPoint before, after;  // the new apex on the old surface, the old one on the new
+  };
+  struct Located {  // the locations for one target
     std::uint32_t v;
     bool is_legal;
-    std::size_t first;
+    std::size_t first, n;
   };
 
   bool gather(std::uint32_t u);
-  bool locate_sector(const Sector& sector, std::uint32_t v, Location& location) const;
-  bool choose_face(const Sector& sector, Location& location) const;
-  void choose_by_texture(const Sector& sector, Location& location) const;
-  void choose_by_distance(const Sector& sector, Location& location) const;
-  void choose_on_edge(const Sector& sector, Location& location) const;
+  bool locate_all(std::uint32_t v, const glm::dvec3& apex, std::vector<Location>& to) const;
+  bool locate_at(const Sector& sector, std::size_t i, const glm::dvec3& apex,
+                 std::vector<Location>& to) const;
+  bool locate_moved(const Sector& sector, std::uint32_t v, const glm::dvec3& apex,
+                    std::vector<Location>& to) const;
+  bool choose_face(Location& location) const;
+  void choose_by_texture(Location& location) const;
+  void choose_by_distance(Location& location) const;
+  void choose_on_edge(Location& location) const;
   bool build_located(std::uint32_t v);
-  void build_sector(const Sector& sector, const Location& location);
+  void build_sector(const Location& location);
   bool find_face_at(std::uint32_t a, std::uint32_t b, std::uint32_t but, std::uint32_t& face) const;
-  bool build_vanishing(const Sector& sector, const Location& location, std::uint32_t v);
+  bool build_vanishing(const Location& location, std::uint32_t v);
   FanPoint point_on(const FanPoint& top, const CollapseStar::Rim& b, const CollapseStar::Rim& c,
                     const glm::dvec3& at) const;
-  bool move_closed(const Sector& sector, const FanPoint& apex);
-  bool move_open(const Sector& sector, const FanPoint& apex);
+  std::optional<Move> find_move(const Sector& sector, const FanPoint& apex) const;
+  std::optional<Move> find_closed_move(const Sector& sector, const FanPoint& apex) const;
+  Move find_open_move(const Sector& sector, const FanPoint& apex) const;
+  bool move_sector(const Sector& sector, const FanPoint& apex);
+  void move_closed(const Sector& sector, const FanPoint& apex, const Move& move);
+  void move_open(const Sector& sector, const FanPoint& apex, const Move& move);
 
   const CollapseMesh& mesh_;
   std::span<const glm::vec3> positions_;

@@ -82,7 +82,8 @@ class CollapseMesh {
   void ring(std::uint32_t v, std::vector<std::uint32_t>& out) { check_.ring(*this, v, out); }
 
   /// Whether the half-edge collapse u -> v keeps the surface's topology (the link condition),
-  /// moves a boundary vertex along its boundary only, and turns no triangle's normal by more than
+  /// moves a boundary vertex along its boundary only (edges with an odd number of triangles: where
+  /// the surface ends, or three sheets meet), and turns no triangle's normal by more than
   /// acos(min_cosine) nor makes one of no area. A triangle on its own may vanish, unless it is the
   /// last. O(triangles of both); where v is a hub and u is not, of u and its neighbours but hubs.
   /// Not thread-safe (scratch lists).
@@ -100,7 +101,7 @@ class CollapseMesh {
   void collapse(std::uint32_t u, std::uint32_t v, CollapseTrace* trace = nullptr);
   /// Whether u and v are corners of a triangle that stands alone: their collapse would be its end.
   bool is_lone_triangle(std::uint32_t u, std::uint32_t v) const;
-  /// Whether some edge of v has exactly one triangle. Not thread-safe.
+  /// Whether some edge of v has an odd number of triangles. Not thread-safe.
   bool is_on_boundary(std::uint32_t v) { return check_.is_on_boundary(*this, v); }
   /// The live triangles, in the order of the input, and their numbers there.
   std::vector<Triangle> triangles() const;

@@ -1,4 +1,4 @@
-// The star of a vertex: its triangles in order around it, one sector a texture chart.
+// The star of a vertex: its triangles in order around it, in sectors.
 #pragma once
 
 #include <cstdint>
@@ -10,9 +10,11 @@
 
 namespace viewcell {
 
-/// The star of one vertex u at a time: the triangles at u. A sector is the part of the star that
-/// lies in one texture chart: several where u lies on borders of charts, else one, as without
-/// texture coordinates. Positions and texture coordinates are relative to u.
+/// The star of one vertex u at a time: the triangles at u. A sector is one fan of triangles, joined
+/// edge to edge around u, of one texture chart: several where u lies on borders of charts, on edges
+/// of more than two triangles or where surfaces touch; else one. Fans end at edges of one, or of
+/// more than two triangles, and where the triangles' winding turns. Positions and texture
+/// coordinates are relative to u.
 class CollapseStar {
  public:
   /// A neighbour of u; the neighbours in order are the rim of the star.
@@ -28,6 +30,8 @@ class CollapseStar {
     bool is_closed = false;
     glm::dvec2 origin{0};     ///< u in the texture
     std::uint32_t wedge = 0;  ///< of u; one of them
+    std::uint32_t chart = 0;  ///< u's texture vertex; 0 where charts do not matter
+    bool is_cut = false;      ///< open, but the surface goes on beyond both ends
   };
 
   /// Keeps references. texcoords: of wedges; empty: charts do not matter.
@@ -35,8 +39,7 @@ class CollapseStar {
                std::span<const glm::vec3> positions, std::span<const glm::vec2> texcoords)
       : mesh_(mesh), wedges_(wedges), positions_(positions), texcoords_(texcoords) {}
 
-  /// False when some sector is not one fan (triangles joined edge to edge around u) with every
-  /// neighbour once. The last star is cached until forget().
+  /// False when some fan meets a neighbour twice. The last star is cached until forget().
   bool gather(std::uint32_t u);
   void forget() { of_ = kNone; }
   /// Whether a texture seam ends in u: some neighbour then has two texture coordinates within one
@@ -54,6 +57,11 @@ class CollapseStar {
     std::uint32_t face, a, b, chart, wedge_u, wedge_a, wedge_b;  // chart: u's texture vertex
   };
   bool order(std::size_t first, std::size_t last);
+  bool order_fans(std::size_t first, std::size_t last);
+  void link_fans(std::size_t first, std::size_t last);
+  bool is_shared(std::size_t first, std::size_t last, std::uint32_t vertex) const;
+  void push_rim(const Spoke& spoke);
+  bool end_sector(const Spoke& spoke, std::size_t begin, bool is_closed, bool is_cut = false);
   bool differ(std::uint32_t wedge_a, std::uint32_t wedge_b) const;
   bool meets_each_once(std::size_t first) const;
   void fill_rim_vectors(std::size_t first, std::uint32_t wedge_u);
@@ -65,6 +73,7 @@ class CollapseStar {
   std::uint32_t of_ = kNone;
   bool is_legal_ = false, has_seam_end_ = false;
   std::vector<Spoke> spokes_;
+  std::vector<std::size_t> next_, previous_;  // spoke -> the one that it is joined to, or itself
   std::vector<Rim> rim_;
   std::vector<Sector> sectors_;
   std::vector<std::uint32_t> faces_;

@@ -108,20 +108,20 @@ void StarCheck::ring(const CollapseMesh& mesh, std::uint32_t v, std::vector<std:
 
 Refusal StarCheck::check(const CollapseMesh& mesh, std::uint32_t u, std::uint32_t v,
                          float min_cosine) {
-  bool is_boundary_edge = false;
+  bool is_odd_edge = false;
   gather(mesh, u, fan_u_);
-  if (!keeps_topology(mesh, u, v, is_boundary_edge)) return Refusal::link;
-  if (!is_boundary_edge && fan_u_.has_odd_edge()) return Refusal::boundary;
+  if (!keeps_topology(mesh, u, v, is_odd_edge)) return Refusal::link;
+  if (!is_odd_edge && fan_u_.has_odd_edge()) return Refusal::boundary;
   return check_move(mesh, fan_u_, u, v, mesh.position(v), min_cosine);
 }
 
 Refusal StarCheck::check(const CollapseMesh& mesh, std::uint32_t u, std::uint32_t v,
                          const glm::vec3& position, float min_cosine) {
-  bool is_boundary_edge = false;
+  bool is_odd_edge = false;
   gather(mesh, u, fan_u_);
   gather(mesh, v, fan_v_);
-  if (!keeps_topology(mesh, u, v, is_boundary_edge)) return Refusal::link;
-  if (!is_boundary_edge && fan_u_.has_odd_edge() && fan_v_.has_odd_edge()) return Refusal::boundary;
+  if (!keeps_topology(mesh, u, v, is_odd_edge)) return Refusal::link;
+  if (!is_odd_edge && fan_u_.has_odd_edge() && fan_v_.has_odd_edge()) return Refusal::boundary;
   const Refusal refusal = check_move(mesh, fan_u_, u, v, position, min_cosine);
   return refusal != Refusal::none ? refusal : check_move(mesh, fan_v_, v, u, position, min_cosine);
 }
@@ -136,14 +136,14 @@ bool StarCheck::is_on_boundary(const CollapseMesh& mesh, std::uint32_t v) {
 // three neighbours of a vertex with three triangles are all joined; it may go unless they have a
 // triangle of their own, as in a tetrahedron.) Nor may the last triangles go.
 bool StarCheck::keeps_topology(const CollapseMesh& mesh, std::uint32_t u, std::uint32_t v,
-                               bool& is_boundary_edge) {
+                               bool& is_odd_edge) {
   const auto around_a = fan_u_.a(), around_b = fan_u_.b();
   opposite_.clear();
   for (std::size_t i = 0; i < around_a.size(); ++i) {
     if (around_a[i] == v) opposite_.push_back(around_b[i]);
     if (around_b[i] == v) opposite_.push_back(around_a[i]);
   }
-  is_boundary_edge = opposite_.size() == 1;
+  is_odd_edge = opposite_.size() % 2 == 1;
   if (opposite_.empty() || opposite_.size() == mesh.n_sheet_triangles()) return false;
   return mesh.is_hub(v) && !mesh.is_hub(u) ? compare_with_hub(mesh, v) : compare_stars(mesh, u, v);
 }

@@ -23,7 +23,7 @@ class StarCheck {
 
  private:
   bool keeps_topology(const CollapseMesh& mesh, std::uint32_t u, std::uint32_t v,
-                      bool& is_boundary_edge);
+                      bool& is_odd_edge);
   bool compare_stars(const CollapseMesh& mesh, std::uint32_t u, std::uint32_t v) const;
   bool compare_with_hub(const CollapseMesh& mesh, std::uint32_t hub) const;
 
