@@ -51,8 +51,9 @@ struct Units {
 template <typename Metric>
 CollapseCounts collapse_all(CollapseMesh& mesh, Metric& metric, Recorder& recorder,
                             CollapseBound* guard, ChartGuard* charts,
-                            const std::vector<bool>& locked, const Units& units,
-                            const BuildOptions& options, const Progress& progress) {
+                            const std::vector<bool>& locked, AttributeCost* attributes,
+                            const Units& units, const BuildOptions& options,
+                            const Progress& progress) {
   constexpr std::size_t kSlices = 100;
   RecordedMetric<Metric> recorded{mesh,
                                   metric,
@@ -61,7 +62,8 @@ CollapseCounts collapse_all(CollapseMesh& mesh, Metric& metric, Recorder& record
                                   units.in_metric(options.error_bound - units.gap),
                                   texture_needs(options).no_folds,
                                   charts,
-                                  locked};
+                                  locked,
+                                  attributes};
   CollapseLoop loop(mesh, recorded);
   const std::size_t start = mesh.n_triangles();
   const std::size_t span = start - std::min(start, std::max<std::size_t>(options.target_faces, 1));
@@ -94,8 +96,9 @@ CollapseCounts collapse_all(CollapseMesh& mesh, Metric& metric, Recorder& record
 // triangles: without copies.
 CollapseCounts run_metric(CollapseMesh& mesh, WedgeMesh& wedges,
                           const std::vector<Triangle>& triangles, Recorder& recorder,
-                          const std::vector<bool>& locked, const Units& units,
-                          const BuildOptions& options, const Progress& progress) {
+                          const std::vector<bool>& locked, AttributeCost* attributes,
+                          const Units& units, const BuildOptions& options,
+                          const Progress& progress) {
   std::span<glm::vec3> positions = wedges.positions;
   std::optional<CollapseBound> guard;
   if (options.track_error || std::isfinite(options.error_bound))
@@ -105,7 +108,7 @@ CollapseCounts run_metric(CollapseMesh& mesh, WedgeMesh& wedges,
     charts.emplace(wedges, options.charts_apart_px);
   const auto run = [&](auto&& metric) {
     return collapse_all(mesh, metric, recorder, guard ? &*guard : nullptr,
-                        charts ? &*charts : nullptr, locked, units, options, progress);
+                        charts ? &*charts : nullptr, locked, attributes, units, options, progress);
   };
   if (options.metric == MetricKind::mapping && options.placement == Placement::full) {
     if (options.measure == Measure::mean)
@@ -141,6 +144,20 @@ PieceCounts count_pieces(const std::vector<Triangle>& triangles, std::size_t n_v
   for (const std::size_t n : sizes)
     if (n <= PieceCounts::kMostSmall) ++out.n_small, out.n_in_small += n;
   return out;
+}
+
+// What materials and colours cost beside the metric. Maps keep to borders by themselves.
+AttributeCost make_attribute_cost(const WedgeMesh& wedges, const std::vector<Triangle>& triangles,
+                                  const TriMesh& mesh, const BuildOptions& options) {
+  const bool is_quadric = options.metric == MetricKind::qem3 || options.metric == MetricKind::qem5;
+  AttributeCostOptions out;
+  out.borders = is_quadric || options.metric == MetricKind::lt;
+  out.colours = !options.ignore_colours;
+  out.boundary_weight = options.qem.boundary_weight;
+  const bool is_mean = is_quadric ? options.qem.mean : options.measure != Measure::mean;
+  out.scale =
+      make_quadric_scale(wedges.positions, triangles, {.area_weighted = true, .mean = is_mean});
+  return {wedges, wedges.positions, triangles, mesh.colors, out};
 }
 
 WeldOptions weld_options(const TriMesh& mesh, const BuildOptions& options) {
@@ -202,7 +219,10 @@ BuildResult build_progressive_mesh(const TriMesh& mesh, const BuildOptions& opti
                                    const Progress& progress) {
   check_options(mesh, options);
   const WeldOptions weld = weld_options(mesh, options);
-  WedgeMesh wedges = make_wedges(mesh, {.along_curve = true, .weld = weld});
+  WedgeMesh wedges = make_wedges(mesh, {.along_curve = true,
+                                        .weld = weld,
+                                        .materials = !options.ignore_materials,
+                                        .colours = !options.ignore_colours});
   if (wedges.faces.empty())
     throw InputError(options.name, "", "has no triangle with three different corners");
   const Units units{unit_scale(wedges.positions), round_up(wedges.apart.gap)};
@@ -217,7 +237,11 @@ BuildResult build_progressive_mesh(const TriMesh& mesh, const BuildOptions& opti
   std::vector<bool> locked;
   if (options.lock_borders) locked = find_border_vertices(triangles, wedges.positions.size());
   result.n_locked = static_cast<std::size_t>(std::count(locked.begin(), locked.end(), true));
-  result.counts = run_metric(work, wedges, triangles, recorder, locked, units, options, progress);
+  AttributeCost attributes = make_attribute_cost(wedges, triangles, mesh, options);
+  result.n_region_edges = attributes.n_border_edges();
+  result.counts =
+      run_metric(work, wedges, triangles, recorder, locked,
+                 attributes.is_empty() ? nullptr : &attributes, units, options, progress);
   result.record = recorder.finish();
   result.n_welded = wedges.n_welded;
   result.n_dropped = wedges.n_dropped;

@@ -38,6 +38,8 @@ struct BuildOptions {
   /// Vertices of edges with one triangle neither move nor vanish: neighbouring tiles that are built
   /// one by one still fit.
   bool lock_borders = false;
+  /// Where materials, or colours at one position, meet are no borders, and colours cost nothing.
+  bool ignore_materials = false, ignore_colours = false;
   /// Every level knows its error(), whatever the metric. Levels of aps and mapping do (total, max),
   /// and those of an error bound.
   bool track_error = false;
@@ -80,6 +82,7 @@ struct BuildResult {
   BorderWeld welded_apart;    ///< vertices not at the position of the one that they are welded to
   PieceCounts pieces;         ///< of the input, welded
   std::size_t n_locked = 0;   ///< vertices
+  std::size_t n_region_edges = 0;  ///< where materials or colours meet
 };
 
 /// Throws InputError when the metric needs what the mesh has not, UsageError for a metric that has

@@ -50,8 +50,7 @@ void ChartGuard::gather(const CollapseMesh& mesh, const WedgeTable& wedges,
     if (dies && is_parent) return;
     const auto& pairs = wedges.pairs();
     const auto is_met = [&](const WedgeTable::Pair& p) {
-      return wedges.texture_vertex(is_parent ? p.to : p.from) ==
-             wedges.texture_vertex(wedges.at(c));
+      return wedges.chart_vertex(is_parent ? p.to : p.from) == wedges.chart_vertex(wedges.at(c));
     };
     while (face.pair < pairs.size() && !is_met(pairs[face.pair])) ++face.pair;
     before_.push_back(face);

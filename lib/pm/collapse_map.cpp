@@ -237,8 +237,8 @@ void CollapseMap::build_sector(const Location& location) {
 }
 
 // A face at the edge a b that has not the vertex `but`.
-bool CollapseMap::find_face_at(std::uint32_t a, std::uint32_t b, std::uint32_t but,
-                               std::uint32_t& face) const {
+std::optional<std::uint32_t> CollapseMap::find_face_at(std::uint32_t a, std::uint32_t b,
+                                                       std::uint32_t but) const {
   if (mesh_.is_hub(a) && mesh_.n_sheet_triangles(b) < mesh_.n_sheet_triangles(a)) std::swap(a, b);
   const std::uint32_t found = mesh_.lists().find(a, [&](std::uint32_t c) {
     const std::uint32_t t = 3 * (c / 3);
@@ -246,24 +246,37 @@ bool CollapseMap::find_face_at(std::uint32_t a, std::uint32_t b, std::uint32_t b
     const std::uint32_t y = mesh_.vertex_at(t + (c + 2 - t) % 3);
     return x != but && y != but && (x == b || y == b);
   });
-  face = found / 3;
-  return found != CornerLists::kNone;
+  if (found == CornerLists::kNone) return {};
+  return found / 3;
+}
+
+// A face of v that has not the vertex `but`.
+std::optional<std::uint32_t> CollapseMap::find_other_face(std::uint32_t v,
+                                                          std::uint32_t but) const {
+  const std::uint32_t found = mesh_.lists().find(v, [&](std::uint32_t c) {
+    const std::uint32_t t = 3 * (c / 3);
+    return mesh_.vertex_at(t) != but && mesh_.vertex_at(t + 1) != but &&
+           mesh_.vertex_at(t + 2) != but;
+  });
+  if (found == CornerLists::kNone) return {};
+  return found / 3;
 }
 
 // A triangle that is alone in its sector vanishes but for an edge: some face at that edge inherits
-// its surface.
+// its surface. Where it was a fin, the edge goes with it, and a face at v inherits.
 bool CollapseMap::build_vanishing(const Location& location, std::uint32_t v) {
   const Sector& sector = location.sector;
   const Walk rim{sector, location.v, location.step};
-  const std::uint32_t u = star_.of(), far = rim[1].vertex;
-  std::uint32_t inheriting_face = 0;
-  if (!find_face_at(v, far, u, inheriting_face)) return false;
-  const std::uint32_t to = star_.index_of(inheriting_face);
+  const std::uint32_t u = star_.of();
+  const auto at_edge = find_face_at(v, rim[1].vertex, u);
+  const auto inheriting_face = at_edge ? at_edge : find_other_face(v, u);
+  if (!inheriting_face) return false;
+  const std::uint32_t to = star_.index_of(*inheriting_face);
   const FanPoint apex{location.apex, rim[0].uv};
   overlay_.start(apex, sector.origin, location.step < 0);
   overlay_.add_ray(apex, rim.face(0));
   overlay_.add_ray({rim[1].to, rim[1].uv}, rim.face(0));
-  overlay_.add_vanishing_face(to, location.after);
+  at_edge ? overlay_.add_vanishing_face(to, location.after) : overlay_.add_vanishing_fin(to);
   return true;
 }
 

@@ -120,7 +120,9 @@ class CollapseMap {
   void choose_on_edge(Location& location) const;
   bool build_located(std::uint32_t v);
   void build_sector(const Location& location);
-  bool find_face_at(std::uint32_t a, std::uint32_t b, std::uint32_t but, std::uint32_t& face) const;
+  std::optional<std::uint32_t> find_face_at(std::uint32_t a, std::uint32_t b,
+                                            std::uint32_t but) const;
+  std::optional<std::uint32_t> find_other_face(std::uint32_t v, std::uint32_t but) const;
   bool build_vanishing(const Location& location, std::uint32_t v);
   FanPoint point_on(const FanPoint& top, const CollapseStar::Rim& b, const CollapseStar::Rim& c,
                     const glm::dvec3& at) const;

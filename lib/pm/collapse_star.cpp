@@ -9,11 +9,12 @@ bool CollapseStar::gather(std::uint32_t u) {
   of_ = u;
   is_legal_ = has_seam_end_ = false;
   spokes_.clear(), rim_.clear(), sectors_.clear(), faces_.clear();
+  const bool has_charts = !texcoords_.empty() || wedges_.has_regions();
   mesh_.for_each_sheet_corner(u, [&](std::uint32_t c) {
     const std::uint32_t t = 3 * (c / 3), a = t + (c + 1 - t) % 3, b = t + (c + 2 - t) % 3;
     const std::uint32_t wedge = wedges_.at(c);
     spokes_.push_back({c / 3, mesh_.vertex_at(a), mesh_.vertex_at(b),
-                       texcoords_.empty() ? 0 : wedges_.texture_vertex(wedge), wedge, wedges_.at(a),
+                       has_charts ? wedges_.chart_vertex(wedge) : 0, wedge, wedges_.at(a),
                        wedges_.at(b)});
   });
   // by texture chart; the order within does not matter
@@ -124,7 +125,7 @@ bool CollapseStar::order_fans(std::size_t first, std::size_t last) {
     else
       rim_.push_back({tail.b, tail.wedge_b, 0, {}, {}});
     const bool is_cut =
-        !is_closed && is_shared(first, last, head.a) && is_shared(first, last, tail.b);
+        !is_closed && (is_shared(first, last, head.a) || is_shared(first, last, tail.b));
     return end_sector(head, begin, is_closed, is_cut);
   };
   for (std::size_t i = first; i < last; ++i)

@@ -30,11 +30,12 @@ class CollapseStar {
     bool is_closed = false;
     glm::dvec2 origin{0};     ///< u in the texture
     std::uint32_t wedge = 0;  ///< of u; one of them
-    std::uint32_t chart = 0;  ///< u's texture vertex; 0 where charts do not matter
-    bool is_cut = false;      ///< open, but the surface goes on beyond both ends
+    std::uint32_t chart = 0;  ///< u's chart vertex; 0 where charts do not matter
+    bool is_cut = false;      ///< open, but the surface goes on beyond an end
   };
 
-  /// Keeps references. texcoords: of wedges; empty: charts do not matter.
+  /// Keeps references. texcoords: of wedges; empty: charts matter only if they end at materials or
+  /// colours, too.
   CollapseStar(const CollapseMesh& mesh, const WedgeTable& wedges,
                std::span<const glm::vec3> positions, std::span<const glm::vec2> texcoords)
       : mesh_(mesh), wedges_(wedges), positions_(positions), texcoords_(texcoords) {}
@@ -54,7 +55,7 @@ class CollapseStar {
  private:
   static constexpr std::uint32_t kNone = 0xffffffffu;
   struct Spoke {                                                 // a triangle (u, a, b)
-    std::uint32_t face, a, b, chart, wedge_u, wedge_a, wedge_b;  // chart: u's texture vertex
+    std::uint32_t face, a, b, chart, wedge_u, wedge_a, wedge_b;  // chart: u's chart vertex
   };
   bool order(std::size_t first, std::size_t last);
   bool order_fans(std::size_t first, std::size_t last);

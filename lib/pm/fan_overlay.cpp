@@ -110,7 +110,23 @@ void FanOverlay::add_new_apex(std::size_t ray, const FanPoint& before) {
 
 void FanOverlay::add_vanishing_face(std::uint32_t inheriting_face, const FanPoint& after) {
   add_apex(0, inheriting_face, old_apex(after));
-  cells_.push_back({inheriting_face, inheriting_face});
+  keep_face(inheriting_face);
+}
+
+void FanOverlay::add_vanishing_fin(std::uint32_t inheriting_face) {
+  const Ray &at_apex = rays_[0], &far = rays_[1];
+  const Corner apex = old_apex({glm::dvec3(apex_[0], apex_[1], apex_[2]), apex_texture_});
+  Corner gone{far.to - apex_, far.to};
+  if (keep_.texture) gone.point = add_point(far.texture, apex_texture_);
+  for (const Corner& corner : {apex, gone})
+    largest2_ = std::max(largest2_, dot(corner.shift, corner.shift));
+  add_cell(at_apex.face, inheriting_face, {apex, on_rim(at_apex), gone, gone});
+  keep_face(inheriting_face);
+}
+
+// Its own part, which does not change.
+void FanOverlay::keep_face(std::uint32_t face) {
+  cells_.push_back({face, face});
   if (keep_.moments) moments_.emplace_back();
   if (keep_.texture) textures_.emplace_back();
 }

@@ -53,6 +53,9 @@ class FanOverlay {
   /// edge that is left, so its surface is mapped onto `inheriting_face`, which itself stays as it
   /// is.
   void add_vanishing_face(std::uint32_t inheriting_face, const FanPoint& after);
+  /// The same where the edge is left over, too: all of the face goes to the corner of ray 0, the
+  /// new apex, in `inheriting_face`.
+  void add_vanishing_fin(std::uint32_t inheriting_face);
 
   const std::vector<OverlayCell>& cells() const { return cells_; }
   /// Beside the cells, if asked for. Of an inheriting face's own, unchanged part all corners are 0.
@@ -88,6 +91,7 @@ class FanOverlay {
   Corner old_apex(const FanPoint& after);
   Corner new_apex(const FanPoint& before);
   Corner on_rim(const Ray& ray) const;
+  void keep_face(std::uint32_t face);
   std::uint32_t add_point(const glm::dvec2& before, const glm::dvec2& after);
   template <typename RayAt>
   void order_crossings(std::size_t middle, const RayAt& ray);

@@ -31,6 +31,7 @@ void write_pm(const std::filesystem::path& file, const ProgressiveRecord& r) {
             {"made_by", r.made_by.empty() ? Json() : Json::parse(r.made_by)}};
   if (!a.material_libraries.empty()) info["material_libraries"] = a.material_libraries;
   if (a.offset != glm::dvec3(0)) info["offset"] = {a.offset.x, a.offset.y, a.offset.z};
+  if (!r.wedge_normals.empty()) info["wedge_normals"] = true;
   // Names as files have them need not be UTF-8, which JSON is.
   writer.add_bytes("INFO", info.dump(-1, ' ', false, Json::error_handler_t::replace));
   writer.add("POSITION", a.positions);
@@ -39,6 +40,7 @@ void write_pm(const std::filesystem::path& file, const ProgressiveRecord& r) {
   writer.add("VERTEXOF", r.vertex_of);
   writer.add("WEDGES", r.extra_sources);
   writer.add("TEXCOORD", r.texcoords);
+  if (!r.wedge_normals.empty()) writer.add("WNORMALS", r.wedge_normals);
   writer.add("FACES", r.faces);
   writer.add("MATERIAL", a.materials);
   writer.add("SPLITS", r.splits);
@@ -74,6 +76,7 @@ ProgressiveRecord read_pm(const std::filesystem::path& file) {
   reader.read("VERTEXOF", r.vertex_of);
   reader.read("WEDGES", r.extra_sources);
   reader.read("TEXCOORD", r.texcoords);
+  if (info.has("wedge_normals")) reader.read("WNORMALS", r.wedge_normals);
   reader.read("FACES", r.faces);
   reader.read("MATERIAL", a.materials);
   reader.read("SPLITS", r.splits);
@@ -86,6 +89,7 @@ ProgressiveRecord read_pm(const std::filesystem::path& file) {
   check_finite(reader, "POSITION", a.positions);
   check_finite(reader, "NORMALS", a.normals);
   check_finite(reader, "COLORS", a.colors);
+  check_finite(reader, "WNORMALS", r.wedge_normals);
   check_finite(reader, "TEXCOORD", r.texcoords);
   check_finite(reader, "OLDPLACE", r.parent_positions);
   check_finite(reader, "OLDTEX", r.parent_texcoords);

@@ -1,9 +1,11 @@
 #include "pm/progressive_mesh.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <utility>
 
+#include "base/buckets.h"
 #include "base/error.h"
 #include "mesh/used_vertices.h"
 
@@ -14,6 +16,43 @@ UsedVertices take_all_vertices(std::size_t n) {
   UsedVertices out{std::vector<std::uint32_t>(n), {}};
   std::iota(out.source.begin(), out.source.end(), 0u);
   out.new_index = out.source;
+  return out;
+}
+
+// Normals by corner, weighted by angle, of the faces around that have the same wedge there and do
+// not turn away by more than 60 degrees: full-edge collapses join the wedges of a crease.
+std::vector<glm::vec3> compute_wedge_normals(const TriMesh& mesh, std::span<const Triangle> wedges,
+                                             std::size_t n_wedges) {
+  constexpr double kCreaseCosine = 0.5;
+  constexpr std::size_t kManyCorners = 256;  // of a wedge: all are averaged
+  struct Corner {
+    std::uint32_t index;
+    double angle;
+    glm::dvec3 normal;
+  };
+  const auto corners = fill_buckets<Corner>(n_wedges, [&](const auto& emit) {
+    for (std::uint32_t c = 0; c < 3 * wedges.size(); ++c) {
+      const Triangle& t = mesh.triangles[c / 3];
+      const glm::dvec3 at(mesh.positions[t[c % 3]]), normal = area_normal(mesh, t);
+      const glm::dvec3 a = glm::dvec3(mesh.positions[t[(c + 1) % 3]]) - at;
+      const glm::dvec3 b = glm::dvec3(mesh.positions[t[(c + 2) % 3]]) - at;
+      const double length = glm::length(normal);
+      emit(wedges[c / 3][c % 3], Corner{c, length > 0 ? std::atan2(length, glm::dot(a, b)) : 0,
+                                        length > 0 ? normal / length : glm::dvec3(0)});
+    }
+  });
+  std::vector<glm::vec3> out(3 * wedges.size(), glm::vec3(0, 0, 1));
+  for (std::size_t w = 0; w < n_wedges; ++w) {
+    const auto around = corners.of(w);
+    for (const Corner& corner : around) {
+      glm::dvec3 sum(0);
+      for (const Corner& other : around)
+        if (around.size() > kManyCorners || glm::dot(corner.normal, other.normal) > kCreaseCosine)
+          sum += other.angle * other.normal;
+      const double length = glm::length(sum);
+      if (length > 0) out[corner.index] = glm::vec3(sum / length);
+    }
+  }
   return out;
 }
 
@@ -108,9 +147,11 @@ TriMesh ProgressiveMesh::extract(std::vector<std::uint32_t>* source_vertex) cons
   out.material_names = from.material_names;
   out.material_libraries = from.material_libraries;
   out.offset = from.offset;
+  std::vector<Triangle> wedges;  // where they have normals
   for (std::size_t f = 0; f < record_.faces.size(); ++f) {
     if (!is_alive_[f]) continue;
     const Triangle& face = record_.faces[f];
+    if (!record_.wedge_normals.empty()) wedges.push_back(face);
     out.triangles.push_back({source_of(face[0]), source_of(face[1]), source_of(face[2])});
     if (!record_.texcoords.empty())
       for (const std::uint32_t wedge : face) out.texcoords.push_back(record_.texcoords[wedge]);
@@ -122,10 +163,16 @@ TriMesh ProgressiveMesh::extract(std::vector<std::uint32_t>* source_vertex) cons
   for (const std::uint32_t v : used.source)
     out.positions.push_back(from.positions[is_input ? v : record_.vertex_of[v]]);
   out.colors = used.pick(from.colors);
-  if (record_.is_full_edge() && !is_input && !from.normals.empty())
+  const bool has_moved = record_.is_full_edge() && !is_input;
+  if (has_moved && !from.normals.empty())
     out.normals = make_vertex_normals(out);
   else
     out.normals = used.pick(from.normals);
+  if (has_moved && !wedges.empty())
+    out.corner_normals = compute_wedge_normals(out, wedges, record_.wedge_normals.size());
+  else
+    for (const Triangle& face : wedges)
+      for (const std::uint32_t w : face) out.corner_normals.push_back(record_.wedge_normals[w]);
   if (source_vertex) *source_vertex = std::move(used.source);
   return out;
 }
@@ -143,7 +190,7 @@ std::string check_counts(const ProgressiveRecord& r, std::size_t n_wedges) {
   if (r.moved_by.size() != r.moved.size() || r.vertex_of.size() != a.positions.size() ||
       !fits(a.normals.size(), a.positions.size()) || !fits(a.colors.size(), a.positions.size()) ||
       !fits(a.materials.size(), r.faces.size()) || !fits(r.texcoords.size(), n_wedges) ||
-      !fits(r.parent_positions.size(), r.splits.size()))
+      !fits(r.wedge_normals.size(), n_wedges) || !fits(r.parent_positions.size(), r.splits.size()))
     return "an attribute has not one value an element";
   const bool stashes_texcoords = r.is_full_edge() && !r.texcoords.empty();
   if (r.parent_texcoords.size() != (stashes_texcoords ? r.pairs.size() : 0))

@@ -27,13 +27,14 @@ static_assert(sizeof(VertexSplit) == 28);
 
 /// A progressive mesh at its coarsest, as its file has it. Vertices, faces and their numbers are
 /// the input's. Wedge w < positions.size() is what is drawn at vertex w of the input; further
-/// wedges are further texture coordinates of one (extra_sources).
+/// wedges are further texture coordinates, materials or normals of one (extra_sources).
 struct ProgressiveRecord {
   TriMesh
       attributes;  ///< positions, normals, colours of the input; materials of faces; no triangles
   std::vector<std::uint32_t> vertex_of;      ///< the vertex that an input vertex is welded to
   std::vector<std::uint32_t> extra_sources;  ///< of wedges from positions.size() on: input vertex
   std::vector<glm::vec2> texcoords;          ///< of wedges; empty without
+  std::vector<glm::vec3> wedge_normals;      ///< unit; empty where the input has none by corner
   std::vector<Triangle> faces;      ///< three wedges each: in the base, or when the face comes back
   std::vector<VertexSplit> splits;  ///< coarse to fine
   std::vector<std::uint32_t> born;  ///< faces
@@ -87,8 +88,8 @@ class ProgressiveMesh {
 
   /// The mesh at this level: vertices and faces in the input's order, those of the input that are
   /// used (at the input: all). source_vertex: their numbers in the input, if wanted. Welded
-  /// vertices are all where the first of them is, but at the input. Normals are the input's; after
-  /// full-edge collapses, computed.
+  /// vertices are all where the first of them is, but at the input. Normals are the input's, by
+  /// vertex or corner; after full-edge collapses computed, over faces that share the input's.
   TriMesh extract(std::vector<std::uint32_t>* source_vertex = nullptr) const;
 
  private:

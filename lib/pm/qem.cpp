@@ -11,11 +11,12 @@ glm::dvec3 area_vector(const At& at, const Triangle& t) {
   return 0.5 * glm::cross(at(t[1]) - at(t[0]), at(t[2]) - at(t[0]));
 }
 
-// The quadrics of the planes through boundary edges.
-LargeVector<Quadric> sum_boundary_planes(const std::vector<BorderEdge>& edges,
-                                         std::span<const glm::vec3> positions,
-                                         std::span<const Triangle> triangles,
-                                         const glm::dvec3& centre, const QemOptions& options) {
+}  // namespace
+
+LargeVector<Quadric> sum_border_planes(const std::vector<BorderEdge>& edges,
+                                       std::span<const glm::vec3> positions,
+                                       std::span<const Triangle> triangles,
+                                       const glm::dvec3& centre, const QemOptions& options) {
   LargeVector<Quadric> quadrics(positions.size());
   const auto at = [&](std::uint32_t v) { return glm::dvec3(positions[v]) - centre; };
   for (const BorderEdge& edge : edges) {
@@ -30,8 +31,6 @@ LargeVector<Quadric> sum_boundary_planes(const std::vector<BorderEdge>& edges,
   }
   return quadrics;
 }
-
-}  // namespace
 
 glm::dvec3 box_centre(std::span<const glm::vec3> positions) {
   Box box;
@@ -53,8 +52,8 @@ QuadricScale make_quadric_scale(std::span<const glm::vec3> positions,
 LargeVector<Quadric> make_boundary_quadrics(std::span<const glm::vec3> positions,
                                             std::span<const Triangle> triangles,
                                             const glm::dvec3& centre, const QemOptions& options) {
-  return sum_boundary_planes(find_border_edges(triangles, positions.size()), positions, triangles,
-                             centre, options);
+  return sum_border_planes(find_border_edges(triangles, positions.size()), positions, triangles,
+                           centre, options);
 }
 
 LargeVector<Quadric> make_quadrics(std::span<const glm::vec3> positions,
@@ -72,7 +71,7 @@ LargeVector<Quadric> make_quadrics(std::span<const glm::vec3> positions,
   const std::vector<BorderEdge> edges = find_border_edges(triangles, positions.size());
   if (edges.empty()) return quadrics;
   const LargeVector<Quadric> boundaries =
-      sum_boundary_planes(edges, positions, triangles, centre, options);
+      sum_border_planes(edges, positions, triangles, centre, options);
   for (std::size_t v = 0; v < quadrics.size(); ++v) quadrics[v].add(boundaries[v]);
   return quadrics;
 }

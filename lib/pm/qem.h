@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "pm/border_edges.h"
 #include "pm/collapse_mesh.h"
 #include "pm/quadric.h"
 
@@ -31,6 +32,11 @@ LargeVector<Quadric> make_quadrics(std::span<const glm::vec3> positions,
 LargeVector<Quadric> make_boundary_quadrics(std::span<const glm::vec3> positions,
                                             std::span<const Triangle> triangles,
                                             const glm::dvec3& centre, const QemOptions& options);
+/// The quadrics of the planes through edges at right angles to their triangles.
+LargeVector<Quadric> sum_border_planes(const std::vector<BorderEdge>& edges,
+                                       std::span<const glm::vec3> positions,
+                                       std::span<const Triangle> triangles,
+                                       const glm::dvec3& centre, const QemOptions& options);
 glm::dvec3 box_centre(std::span<const glm::vec3> positions);
 
 /// Turns a value and the weight behind it into a cost: a distance in the mesh's units.

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "mesh/closest_on_segment.h"
+#include "pm/attribute_cost.h"
 #include "pm/collapse_loop.h"
 #include "pm/collapse_trial.h"
 #include "pm/recorder.h"
@@ -24,6 +25,7 @@ struct RecordedMetric {
   bool refuse_folds;                ///< in the texture
   ChartGuard* charts;               ///< to keep them apart, or none
   const std::vector<bool>& locked;  ///< vertices that neither move nor vanish; empty: none
+  AttributeCost* attributes;        ///< of materials and colours, or none
   /// Where an edge may go in a full-edge collapse: nowhere, to its end v (from inside a chart to
   /// its border, from a border to where borders meet, to what is locked or a hub), to a point on
   /// itself (along a border), anywhere.
@@ -31,6 +33,7 @@ struct RecordedMetric {
   glm::vec3 last_position{0};
   Way last_way = Way::free;
 
+  static constexpr float kNever = std::numeric_limits<float>::infinity();
   static constexpr bool kHasPlacement = requires(Metric m) { m.optimal_position(0u, 0u); };
   static constexpr int kReach = [] {
     if constexpr (requires { Metric::kReach; }) return Metric::kReach;
@@ -38,8 +41,16 @@ struct RecordedMetric {
   }();
 
   float cost(std::uint32_t u, std::uint32_t v) {
+    const float cost = geometric_cost(u, v);
+    if (!attributes || !std::isfinite(cost)) return cost;
+    glm::vec3 position = mesh.position(v);
+    if constexpr (kHasPlacement) position = optimal_position(u, v);
+    if (attributes->has_colours() && !recorder.match(mesh, u, v)) return kNever;
+    return std::hypot(cost, attributes->cost(recorder.table(), u, v, position));
+  }
+  float geometric_cost(std::uint32_t u, std::uint32_t v) {
     if constexpr (!kHasPlacement) {
-      if (is_locked(u)) return std::numeric_limits<float>::infinity();
+      if (is_locked(u)) return kNever;
     } else {
       const Way way = find_way(u, v);
       if constexpr (requires { metric.cost_at(u, v, last_position); }) {
@@ -62,7 +73,7 @@ struct RecordedMetric {
   { return metric.cost_at_least(u, v); }
   Way find_way(std::uint32_t u, std::uint32_t v) requires kHasPlacement {
     if (must_stay(u)) return Way::none;
-    if (recorder.texcoords().empty()) return must_stay(v) ? Way::to_end : Way::free;
+    if (!recorder.table().has_charts()) return must_stay(v) ? Way::to_end : Way::free;
     if (!recorder.match(mesh, u, v)) return Way::none;
     if (must_stay(v) || !recorder.table().match_both(mesh, v)) return Way::to_end;
     return n_charts() < 2 ? Way::free : Way::along;
@@ -70,7 +81,7 @@ struct RecordedMetric {
   /// Of the last match: charts that hold both ends. Of two-sided sheets one side's, unless the
   /// metric looks at the texture.
   std::size_t n_charts() const {
-    if constexpr (requires { metric.texcoord(); }) return recorder.table().texture_pairs().size();
+    if constexpr (requires { metric.texcoord(); }) return recorder.table().chart_pairs().size();
     return recorder.table().n_sheet_pairs();
   }
   bool may_collapse(std::uint32_t u, std::uint32_t v) requires kHasPlacement {
@@ -136,6 +147,7 @@ struct RecordedMetric {
   }
   void traced(std::uint32_t u, std::uint32_t v, const CollapseTrace& trace) {
     if constexpr (requires { metric.traced(u, v, trace); }) metric.traced(u, v, trace);
+    if (attributes) attributes->merge(recorder.table(), u, v);
     recorder.traced(u, v, trace);
   }
   template <typename... Position>

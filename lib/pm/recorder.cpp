@@ -116,6 +116,7 @@ void Recorder::add_attributes(ProgressiveRecord& r) const {
     else
       r.extra_sources.push_back(mesh_.wedge_source[w]);
   }
+  if (!input_.corner_normals.empty()) r.wedge_normals = mesh_.normals;
   r.faces.resize(mesh_.faces.size());
   if (!input_.materials.empty()) to.materials.resize(mesh_.faces.size());
   for (std::uint32_t f = 0; f < mesh_.faces.size(); ++f) {

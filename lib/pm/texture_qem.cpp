@@ -32,7 +32,7 @@ TextureQuadrics::TextureQuadrics(const WedgeMesh& input, std::span<const glm::ve
     const auto corner = [&](std::size_t k) { return point(triangles[f][k], input.faces[f][k]); };
     Quadric5 plane;
     plane.add_triangle(corner(0), corner(1), corner(2), options.qem.area_weighted ? area / 3 : 1);
-    for (const std::uint32_t w : input.faces[f]) of_wedges[input.texture_vertex[w]].add(plane);
+    for (const std::uint32_t w : input.faces[f]) of_wedges[input.chart(w)].add(plane);
   }
 }
 
@@ -43,8 +43,8 @@ Vec5 TextureQuadrics::point(std::uint32_t vertex, std::uint32_t wedge) const {
 }
 
 void TextureQuadrics::merge(std::uint32_t u, std::uint32_t v, const WedgeTable& wedges) {
-  for (const auto& [from, to] : wedges.texture_pairs())
-    of_wedges[wedges.texture_vertex(to)].add(of_wedges[wedges.texture_vertex(from)]);
+  for (const auto& [from, to] : wedges.chart_pairs())
+    of_wedges[wedges.chart_vertex(to)].add(of_wedges[wedges.chart_vertex(from)]);
   boundaries[v].add(boundaries[u]);
 }
 
@@ -54,18 +54,18 @@ float TextureQuadrics::cost_at_parent(const CollapseMesh& mesh, const WedgeTable
   double value = boundaries[u].value(position) + boundaries[v].value(position);
   double weight = boundaries[u].weight + boundaries[v].weight;
   const auto add_wedge = [&](std::uint32_t of, std::uint32_t at) {
-    const Quadric5& quadric = of_wedges[wedges.texture_vertex(of)];
+    const Quadric5& quadric = of_wedges[wedges.chart_vertex(of)];
     value += quadric.value(point(v, at));
     weight += quadric.weight;
   };
-  std::vector<std::uint32_t> met;  // texture vertices of v
+  std::vector<std::uint32_t> met;  // chart vertices of v
   const auto meet = [&](std::uint32_t wedge) {
-    const std::uint32_t vertex = wedges.texture_vertex(wedge);
+    const std::uint32_t vertex = wedges.chart_vertex(wedge);
     if (std::find(met.begin(), met.end(), vertex) != met.end()) return;
     add_wedge(wedge, wedge);
     met.push_back(vertex);
   };
-  for (const auto& [from, to] : wedges.texture_pairs()) {
+  for (const auto& [from, to] : wedges.chart_pairs()) {
     add_wedge(from, to);
     meet(to);
   }
@@ -96,14 +96,14 @@ const TextureQemFullMetric::Evaluated& TextureQemFullMetric::evaluate(std::uint3
     std::swap(u, v);
     wedges_.match(mesh_, u, v) && wedges_.match_both(mesh_, v);
   }
-  wedges_.texture_pairs().size() == 1 ? place_freely(u, v) : place_on_edge(u, v);
+  wedges_.chart_pairs().size() == 1 ? place_freely(u, v) : place_on_edge(u, v);
   return last_;
 }
 
 void TextureQemFullMetric::place_freely(std::uint32_t u, std::uint32_t v) {
-  const auto [from, to] = wedges_.texture_pairs()[0];
-  Quadric5 sum = quadrics_.of_wedges[wedges_.texture_vertex(from)];
-  sum.add(quadrics_.of_wedges[wedges_.texture_vertex(to)]);
+  const auto [from, to] = wedges_.chart_pairs()[0];
+  Quadric5 sum = quadrics_.of_wedges[wedges_.chart_vertex(from)];
+  sum.add(quadrics_.of_wedges[wedges_.chart_vertex(to)]);
   sum.add(quadrics_.boundaries[u]);
   sum.add(quadrics_.boundaries[v]);
   const Vec5 a = quadrics_.point(u, from), b = quadrics_.point(v, to);
@@ -124,12 +124,11 @@ void TextureQemFullMetric::place_on_edge(std::uint32_t u, std::uint32_t v) {
     const auto add = [&](const Quadric5& quadric, const Vec5& x) {
       value += quadric.value(x), weight += quadric.weight;
     };
-    for (const auto& [from, to] : wedges_.texture_pairs()) {
+    for (const auto& [from, to] : wedges_.chart_pairs()) {
       const Vec5 a = quadrics_.point(u, from);
       Vec5 x = quadrics_.point(v, to);
       for (std::size_t i = 0; i < 5; ++i) x[i] += along * (a[i] - x[i]);
-      for (const std::uint32_t w : {from, to})
-        add(quadrics_.of_wedges[wedges_.texture_vertex(w)], x);
+      for (const std::uint32_t w : {from, to}) add(quadrics_.of_wedges[wedges_.chart_vertex(w)], x);
     }
     const glm::dvec3 p =
         glm::mix(glm::dvec3(positions_[v]), glm::dvec3(positions_[u]), along) - quadrics_.centre;

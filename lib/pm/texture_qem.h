@@ -18,7 +18,7 @@ struct TextureQemOptions {
   double texture_weight = 1;
 };
 
-/// What both placements share: each texture vertex gathers the planes of its own faces, so that
+/// What both placements share: each chart vertex gathers the planes of its own faces, so that
 /// texture charts do not mix. Boundary edges are held in space, as in qem3. Keeps references.
 struct TextureQuadrics {
   std::span<const glm::vec3> positions;
@@ -26,7 +26,7 @@ struct TextureQuadrics {
   glm::dvec3 centre;                        ///< of the box: positions are relative to it
   double scale = 0;                         ///< of texture coordinates
   QuadricScale cost_scale;
-  LargeVector<Quadric5> of_wedges;  ///< by texture vertex
+  LargeVector<Quadric5> of_wedges;  ///< by chart vertex
   LargeVector<Quadric> boundaries;  ///< by vertex
 
   /// triangles: of vertices, those of copies shrunk to points (without_copies).

@@ -1,7 +1,9 @@
 #include "pm/wedge_mesh.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
+#include <cmath>
 #include <numeric>
 #include <tuple>
 #include <unordered_map>
@@ -14,55 +16,168 @@ namespace {
 // A split's pairs are numbered in a byte.
 constexpr std::size_t kMostPairs = 256;
 
-// Of the different texture coordinates at a vertex so many are looked through one by one.
+// Of the different wedges at a vertex so many are looked through one by one.
 constexpr int kLongChain = 32;
 
-struct WedgeKey {
-  std::uint32_t vertex;
-  glm::vec2 texcoord;
-  bool operator==(const WedgeKey&) const = default;
-};
-struct WedgeHash {
-  std::size_t operator()(const WedgeKey& key) const {
-    std::uint64_t h = key.vertex;
-    for (const float x : {key.texcoord.x + 0.0f, key.texcoord.y + 0.0f})  // -0 becomes 0
-      h = (h ^ (h >> 32) ^ std::bit_cast<std::uint32_t>(x)) * 0x9e3779b97f4a7c15ull;
+// Numbers that are told apart bit by bit, but for 0 and -0.
+using Key = std::array<std::uint32_t, 9>;
+struct KeyHash {
+  std::size_t operator()(const Key& key) const {
+    std::uint64_t h = 0;
+    for (const std::uint32_t x : key) h = (h ^ (h >> 32) ^ x) * 0x9e3779b97f4a7c15ull;
     return h ^ (h >> 32);
   }
 };
+std::uint32_t bits_of(float x) {
+  return std::bit_cast<std::uint32_t>(x + 0.0f);  // -0 becomes 0
+}
 
-// Wedges of the faces' corners; the first texture coordinates met at a vertex of the file are those
-// of the wedge with its number.
-void add_texcoords(const TriMesh& mesh, WedgeMesh& out) {
-  constexpr std::uint32_t kNone = 0xffffffffu;
-  std::vector<std::uint32_t> next(mesh.positions.size(), kNone);   // wedge -> next of its vertex
-  std::unordered_map<WedgeKey, std::uint32_t, WedgeHash> chained;  // beyond the first kLongChain
-  std::vector<bool> is_met(mesh.positions.size(), false);
-  out.texcoords.assign(mesh.positions.size(), glm::vec2(0));
-  const auto wedge_of = [&](std::uint32_t source, const glm::vec2& uv) {
-    if (!is_met[source]) out.texcoords[source] = uv;
-    is_met[source] = true;
+// Makes wedges of the faces' corners. The first attributes met at a vertex of the file are those of
+// the wedge with its number.
+class WedgeMaker {
+ public:
+  WedgeMaker(const TriMesh& mesh, bool by_material, WedgeMesh& out)
+      : mesh_(mesh),
+        out_(out),
+        by_material_(by_material && !mesh.materials.empty()),
+        next_(mesh.positions.size(), kNone),
+        is_met_(mesh.positions.size(), false) {
+    const std::size_t n = mesh.positions.size();
+    if (!mesh.texcoords.empty()) out.texcoords.assign(n, glm::vec2(0));
+    if (!mesh.corner_normals.empty()) out.normals.assign(n, glm::vec3(0, 0, 1));
+    if (by_material_) materials_.assign(n, 0);
+  }
+
+  void make() {
+    if (out_.texcoords.empty() && out_.normals.empty() && materials_.empty()) return;
+    for (std::size_t f = 0; f < out_.faces.size(); ++f)
+      for (std::size_t k = 0; k < 3; ++k)
+        out_.faces[f][k] = wedge_of(out_.faces[f][k], 3 * std::size_t{out_.face_source[f]} + k);
+  }
+  /// Of wedges; empty where they are not told apart by it.
+  std::vector<std::int32_t>& materials() { return materials_; }
+
+ private:
+  static constexpr std::uint32_t kNone = 0xffffffffu;
+
+  bool has(std::uint32_t wedge, std::size_t corner) const {
+    return (out_.texcoords.empty() || out_.texcoords[wedge] == mesh_.texcoords[corner]) &&
+           (out_.normals.empty() || out_.normals[wedge] == mesh_.corner_normals[corner]) &&
+           (materials_.empty() || materials_[wedge] == mesh_.materials[corner / 3]);
+  }
+  void set(std::uint32_t wedge, std::size_t corner) {
+    if (!out_.texcoords.empty()) out_.texcoords[wedge] = mesh_.texcoords[corner];
+    if (!out_.normals.empty()) out_.normals[wedge] = mesh_.corner_normals[corner];
+    if (!materials_.empty()) materials_[wedge] = mesh_.materials[corner / 3];
+  }
+  Key key(std::uint32_t source, std::size_t corner) const {
+    Key out{source};
+    if (!out_.texcoords.empty())
+      for (int i = 0; i < 2; ++i) out[1 + i] = bits_of(mesh_.texcoords[corner][i]);
+    if (!out_.normals.empty())
+      for (int i = 0; i < 3; ++i) out[3 + i] = bits_of(mesh_.corner_normals[corner][i]);
+    if (!materials_.empty()) out[6] = static_cast<std::uint32_t>(mesh_.materials[corner / 3]);
+    return out;
+  }
+
+  std::uint32_t wedge_of(std::uint32_t source, std::size_t corner) {
+    if (!is_met_[source]) set(source, corner);
+    is_met_[source] = true;
     std::uint32_t w = source;
     int n = 0;
-    while (out.texcoords[w] != uv && next[w] != kNone && ++n < kLongChain) w = next[w];
-    if (out.texcoords[w] == uv) return w;
-    const auto made = static_cast<std::uint32_t>(out.n_wedges());
+    while (!has(w, corner) && next_[w] != kNone && ++n < kLongChain) w = next_[w];
+    if (has(w, corner)) return w;
+    const auto made = static_cast<std::uint32_t>(out_.n_wedges());
     if (n == kLongChain) {
-      const auto [found, is_new] = chained.try_emplace(WedgeKey{source, uv}, made);
+      const auto [found, is_new] = chained_.try_emplace(key(source, corner), made);
       if (!is_new) return found->second;
     } else {
-      next[w] = made;
+      next_[w] = made;
     }
-    next.push_back(kNone);
-    out.texcoords.push_back(uv);
-    out.wedge_source.push_back(source);
-    out.wedge_vertex.push_back(out.wedge_vertex[source]);
+    next_.push_back(kNone);
+    if (!out_.texcoords.empty()) out_.texcoords.emplace_back();
+    if (!out_.normals.empty()) out_.normals.emplace_back();
+    if (!materials_.empty()) materials_.emplace_back();
+    set(made, corner);
+    out_.wedge_source.push_back(source);
+    out_.wedge_vertex.push_back(out_.wedge_vertex[source]);
     return made;
+  }
+
+  const TriMesh& mesh_;
+  WedgeMesh& out_;
+  bool by_material_;
+  std::vector<std::int32_t> materials_;
+  std::vector<std::uint32_t> next_;  // wedge -> next of its vertex of the file
+  std::vector<bool> is_met_;
+  std::unordered_map<Key, std::uint32_t, KeyHash> chained_;  // beyond the first kLongChain
+};
+
+// Wedge -> the lowest one of its vertex with an equal key(wedge), whose first entry is the vertex.
+template <typename KeyOf>
+std::vector<std::uint32_t> match_wedges(const WedgeMesh& mesh, KeyOf&& key_of) {
+  constexpr std::uint32_t kNone = 0xffffffffu;
+  const auto n = static_cast<std::uint32_t>(mesh.n_wedges());
+  std::vector<std::uint32_t> out(n);
+  // The lowest wedges of a vertex, one after another.
+  std::vector<std::uint32_t> first(n, kNone), next(n, kNone);
+  std::unordered_map<Key, std::uint32_t, KeyHash> chained;  // beyond the first kLongChain
+  for (std::uint32_t w = 0; w < n; ++w) {
+    const Key key = key_of(w);
+    std::uint32_t* at = &first[mesh.wedge_vertex[w]];
+    for (int i = 0; *at != kNone && key_of(*at) != key; ++i)
+      at = i < kLongChain ? &next[*at] : &chained.try_emplace(key, w).first->second;
+    if (*at == kNone) *at = w;
+    out[w] = *at;
+  }
+  return out;
+}
+
+Key texture_key(const WedgeMesh& mesh, std::uint32_t w) {
+  Key out{mesh.wedge_vertex[w]};
+  if (mesh.texcoords.empty()) return out;
+  out[1] = bits_of(mesh.texcoords[w].x), out[2] = bits_of(mesh.texcoords[w].y);
+  return out;
+}
+
+// To 8 bits: what differs less is noise.
+std::uint32_t colour_key(const glm::vec3& c) {
+  std::uint32_t out = 1;
+  for (int i = 0; i < 3; ++i)
+    out = out << 8 | static_cast<std::uint32_t>(std::lround(255 * std::clamp(c[i], 0.0f, 1.0f)));
+  return out;
+}
+
+// materials: of wedges; colours: of the file's vertices; empty: they do not matter. Sets
+// chart_vertex and region_vertex where vertices have several.
+void find_chart_vertices(const std::vector<std::int32_t>& materials,
+                         const std::vector<glm::vec3>& colours, WedgeMesh& mesh) {
+  if (materials.empty() && colours.empty()) return;
+  std::vector<bool> is_drawn(mesh.n_wedges(), false);
+  for (const Triangle& face : mesh.faces)
+    for (const std::uint32_t w : face) is_drawn[w] = true;
+  std::vector<std::uint32_t> drawn(mesh.n_wedges(), 0xffffffffu);  // vertex -> a wedge of it
+  const auto region_of = [&](std::uint32_t w) {
+    Key out{mesh.wedge_vertex[w]};
+    if (!materials.empty()) out[3] = static_cast<std::uint32_t>(materials[w]);
+    if (!colours.empty()) out[4] = colour_key(colours[mesh.wedge_source[w]]);
+    return out;
   };
-  for (std::size_t f = 0; f < out.faces.size(); ++f)
-    for (std::size_t k = 0; k < 3; ++k)
-      out.faces[f][k] =
-          wedge_of(out.faces[f][k], mesh.texcoords[3 * std::size_t{out.face_source[f]} + k]);
+  bool has_several = false;
+  for (std::uint32_t w = 0; w < mesh.n_wedges() && !has_several; ++w) {
+    if (!is_drawn[w]) continue;
+    std::uint32_t& other = drawn[mesh.wedge_vertex[w]];
+    if (other == 0xffffffffu) other = w;
+    has_several = region_of(w) != region_of(other);
+  }
+  if (!has_several) return;
+  mesh.region_vertex = match_wedges(mesh, region_of);
+  mesh.chart_vertex = match_wedges(mesh, [&](std::uint32_t w) {
+    Key out = texture_key(mesh, w);
+    const Key region = region_of(w);
+    out[3] = region[3], out[4] = region[4];
+    return out;
+  });
 }
 
 // 21 bits of each coordinate within the box, interleaved [Morton 1966].
@@ -192,10 +307,13 @@ WedgeMesh make_wedges(const TriMesh& mesh, const WedgeOptions& options) {
     out.faces.push_back(mesh.triangles[t]);
     out.face_source.push_back(t);
   }
-  if (!mesh.texcoords.empty()) {
-    add_texcoords(mesh, out);
-    find_texture_vertices(out);
-  }
+  WedgeMaker maker(mesh, options.materials, out);
+  maker.make();
+  if (out.n_welded > 0 && !mesh.normals.empty())
+    for (const std::uint32_t source : out.wedge_source) out.normals.push_back(mesh.normals[source]);
+  if (!mesh.texcoords.empty()) find_texture_vertices(out);
+  find_chart_vertices(maker.materials(), options.colours ? mesh.colors : std::vector<glm::vec3>(),
+                      out);
   out.vertex_source = identity(n);
   out.face_index = identity(static_cast<std::uint32_t>(out.faces.size()));
   if (options.along_curve) order_along_curve(order, out);
@@ -203,21 +321,7 @@ WedgeMesh make_wedges(const TriMesh& mesh, const WedgeOptions& options) {
 }
 
 void find_texture_vertices(WedgeMesh& mesh) {
-  constexpr std::uint32_t kNone = 0xffffffffu;
-  const auto n = static_cast<std::uint32_t>(mesh.n_wedges());
-  mesh.texture_vertex.resize(n);
-  // The texture vertices of a vertex, one after another.
-  std::vector<std::uint32_t> first(n, kNone), next(n, kNone);
-  std::unordered_map<WedgeKey, std::uint32_t, WedgeHash> chained;  // beyond the first kLongChain
-  for (std::uint32_t w = 0; w < n; ++w) {
-    const std::uint32_t v = mesh.wedge_vertex[w];
-    std::uint32_t* at = &first[v];
-    for (int i = 0; *at != kNone && mesh.texcoords[*at] != mesh.texcoords[w]; ++i)
-      at = i < kLongChain ? &next[*at]
-                          : &chained.try_emplace(WedgeKey{v, mesh.texcoords[w]}, w).first->second;
-    if (*at == kNone) *at = w;
-    mesh.texture_vertex[w] = *at;
-  }
+  mesh.texture_vertex = match_wedges(mesh, [&](std::uint32_t w) { return texture_key(mesh, w); });
 }
 
 Charts find_joined_charts(const WedgeMesh& mesh) {
@@ -227,39 +331,75 @@ Charts find_joined_charts(const WedgeMesh& mesh) {
   return connect_charts(texture_vertices, mesh.n_wedges(), ChartLink::corner);
 }
 
-WedgeTable::WedgeTable(const WedgeMesh& mesh) : texture_vertex_(mesh.texture_vertex) {
+WedgeTable::WedgeTable(const WedgeMesh& mesh)
+    : chart_vertex_(mesh.chart_vertex.empty() ? mesh.texture_vertex : mesh.chart_vertex),
+      normals_(mesh.normals),
+      has_regions_(!mesh.chart_vertex.empty()) {
+  if (has_regions_) texture_vertex_ = mesh.texture_vertex;
   corners_.reserve(3 * mesh.faces.size());
   for (const Triangle& face : mesh.faces) corners_.insert(corners_.end(), face.begin(), face.end());
 }
 
 bool WedgeTable::add_pair(const Pair& pair) {
-  const std::uint32_t from = texture_vertex(pair.from), to = texture_vertex(pair.to);
-  const auto same = [&](const Pair& p) { return texture_vertex(p.from) == from; };
-  const auto met = std::find_if(texture_pairs_.begin(), texture_pairs_.end(), same);
-  if (met == texture_pairs_.end())
-    texture_pairs_.push_back(pair);
-  else if (texture_vertex(met->to) != to)
+  const std::uint32_t from = chart_vertex(pair.from), to = chart_vertex(pair.to);
+  const auto same = [&](const Pair& p) { return chart_vertex(p.from) == from; };
+  const auto met = std::find_if(chart_pairs_.begin(), chart_pairs_.end(), same);
+  if (met != chart_pairs_.end()) {
+    if (chart_vertex(met->to) != to) return false;
+  } else if (keeps_texture(pair)) {
+    chart_pairs_.push_back(pair);
+  } else {
     return false;
+  }
   if (std::none_of(pairs_.begin(), pairs_.end(),
                    [&](const Pair& p) { return p.from == pair.from; }))
     pairs_.push_back(pair);
   return true;
 }
 
+// What is one in the texture stays one, whatever else is told apart: texture charts do not tear.
+bool WedgeTable::keeps_texture(const Pair& pair) const {
+  if (texture_vertex_.empty()) return true;
+  return std::none_of(chart_pairs_.begin(), chart_pairs_.end(), [&](const Pair& p) {
+    return texture_vertex_[p.from] == texture_vertex_[pair.from] &&
+           texture_vertex_[p.to] != texture_vertex_[pair.to];
+  });
+}
+
+// Of v's wedges in the chart of pair.to the one whose normal is nearest to that of pair.from. Hubs
+// are not gone through.
+std::uint32_t WedgeTable::find_nearest(const CollapseMesh& mesh, std::uint32_t v,
+                                       const Pair& pair) const {
+  constexpr float kNearer = 1e-4f;
+  if (normals_.empty() || mesh.is_hub(v)) return pair.to;
+  std::uint32_t nearest = pair.to;
+  float most = glm::dot(normals_[pair.from], normals_[pair.to]);
+  mesh.for_each_corner(v, [&](std::uint32_t c) {
+    const std::uint32_t w = corners_[c];
+    const float cosine = glm::dot(normals_[pair.from], normals_[w]);
+    if (!(cosine > most + kNearer) || chart_vertex(w) != chart_vertex(pair.to)) return;
+    most = cosine, nearest = w;
+  });
+  return nearest;
+}
+
 // Pairs the wedges of u that only surviving triangles have.
-bool WedgeTable::pair_rest(const CollapseMesh& mesh, std::uint32_t u) {
+bool WedgeTable::pair_rest(const CollapseMesh& mesh, std::uint32_t u, std::uint32_t v) {
   bool fits = true;
   mesh.for_each_corner(u, [&](std::uint32_t c) {
     const std::uint32_t from = corners_[c];
-    const auto same = [&](const Pair& p) { return texture_vertex(p.from) == texture_vertex(from); };
-    const auto met = std::find_if(texture_pairs_.begin(), texture_pairs_.end(), same);
-    fits = fits && met != texture_pairs_.end() && add_pair({from, met->to});
+    if (std::any_of(pairs_.begin(), pairs_.end(), [&](const Pair& p) { return p.from == from; }))
+      return;
+    const auto same = [&](const Pair& p) { return chart_vertex(p.from) == chart_vertex(from); };
+    const auto met = std::find_if(chart_pairs_.begin(), chart_pairs_.end(), same);
+    fits = fits && met != chart_pairs_.end() &&
+           add_pair({from, find_nearest(mesh, v, {from, met->to})});
   });
   return fits;
 }
 
 bool WedgeTable::match(const CollapseMesh& mesh, std::uint32_t u, std::uint32_t v) {
-  pairs_.clear(), texture_pairs_.clear();
+  pairs_.clear(), chart_pairs_.clear();
   bool fits = true;
   const auto pair_up = [&](std::uint32_t c) {
     const std::uint32_t t = 3 * (c / 3);
@@ -267,20 +407,20 @@ bool WedgeTable::match(const CollapseMesh& mesh, std::uint32_t u, std::uint32_t 
       if (mesh.vertex_at(other) == v) fits = fits && add_pair({corners_[c], corners_[other]});
   };
   mesh.for_each_sheet_corner(u, pair_up);
-  n_sheet_pairs_ = texture_pairs_.size();
+  n_sheet_pairs_ = chart_pairs_.size();
   if (mesh.has_copies()) mesh.for_each_corner(u, pair_up);
-  return fits && pair_rest(mesh, u) && pairs_.size() <= kMostPairs;
+  return fits && pair_rest(mesh, u, v) && pairs_.size() <= kMostPairs;
 }
 
 bool WedgeTable::match_both(const CollapseMesh& mesh, std::uint32_t v) {
-  if (texture_vertex_.empty()) return true;
+  if (chart_vertex_.empty()) return true;
   const std::size_t n_pairs = pairs_.size();
   bool fits = true;
   mesh.for_each_corner(v, [&](std::uint32_t c) {
-    const std::uint32_t to = corners_[c], to_vertex = texture_vertex(to);
+    const std::uint32_t to = corners_[c], to_vertex = chart_vertex(to);
     const Pair* met = nullptr;
-    for (const Pair& p : texture_pairs_) {
-      if (texture_vertex(p.to) != to_vertex) continue;
+    for (const Pair& p : chart_pairs_) {
+      if (chart_vertex(p.to) != to_vertex) continue;
       fits = fits && met == nullptr;
       met = &p;
     }

@@ -12,10 +12,11 @@
 
 namespace viewcell {
 
-/// A wedge is a vertex with one set of attributes (normal, colour, texture coordinates). Where
-/// several vertices of the file stand at one position, or are welded, the first is the vertex and
-/// the others are wedges of it only. Wedge w < n of the file's vertices has the attributes of
-/// vertex w; further wedges are second, third, ... texture coordinates of one. Vertices and faces
+/// A wedge is a vertex with one set of attributes (normal, colour, texture coordinates, material of
+/// its faces). Where several vertices of the file stand at one position, or are welded, the first
+/// is the vertex and the others are wedges of it only. Wedge w < n of the file's vertices has the
+/// attributes of vertex w; further wedges are second, third, ... texture coordinates, materials or
+/// normals of one. Vertices and faces
 /// may stand along a curve through space, so that neighbours lie together in memory.
 struct WedgeMesh {
   LargeVector<glm::vec3> positions;
@@ -23,9 +24,13 @@ struct WedgeMesh {
   std::vector<std::uint32_t> wedge_vertex;   ///< wedge -> vertex
   std::vector<std::uint32_t> wedge_source;   ///< wedge -> vertex of the file, for its attributes
   std::vector<glm::vec2> texcoords;          ///< of wedges; empty without
+  std::vector<glm::vec3> normals;            ///< of wedges, unit; empty where none has two
   /// Wedge -> its texture vertex: wedges of a vertex with equal texture coordinates, which may
-  /// differ in normals and colours, share one, the lowest of them. Empty without.
+  /// differ in all else, share one, the lowest of them. Empty without.
   std::vector<std::uint32_t> texture_vertex;
+  /// Wedge -> its chart vertex: likewise of those that are equal in material and colour, too, in
+  /// all but normals. Empty where no material and no colour meets another: see chart().
+  std::vector<std::uint32_t> chart_vertex;
   std::vector<Triangle> faces;             ///< three wedges each
   std::vector<std::uint32_t> face_source;  ///< face -> triangle of the file
   std::vector<std::uint32_t> face_index;   ///< face -> its index in the order of the file
@@ -33,21 +38,32 @@ struct WedgeMesh {
   BorderWeld apart;                        ///< those of them that stand elsewhere
   std::size_t n_dropped = 0;               ///< triangles with two corners at one position
 
+  /// Likewise of those that are equal in material and colour, whatever else. Empty with
+  /// chart_vertex.
+  std::vector<std::uint32_t> region_vertex;
+
   std::size_t n_wedges() const { return wedge_vertex.size(); }
   std::vector<Triangle> vertex_triangles() const;
+  /// The chart vertex of a wedge, or its texture vertex; 0 without charts.
+  std::uint32_t chart(std::uint32_t wedge) const {
+    if (!chart_vertex.empty()) return chart_vertex[wedge];
+    return texture_vertex.empty() ? 0 : texture_vertex[wedge];
+  }
 };
 
 struct WedgeOptions {
   bool along_curve = false;  ///< false: the order of the file
   WeldOptions weld;          ///< equal positions are welded always
+  /// Where materials meet, or colours at one position, are borders, as those of texture charts.
+  bool materials = true, colours = true;
 };
 WedgeMesh make_wedges(const TriMesh& mesh, const WedgeOptions& options = {});
 
 /// Sets texture_vertex.
 void find_texture_vertices(WedgeMesh& mesh);
 
-/// Of its faces, connected by single corners too (ChartLink::corner). mesh must have texture
-/// coordinates. In this room and in adaptations, charts are these.
+/// Of its faces in the texture, connected by single corners too (ChartLink::corner). mesh must have
+/// texture coordinates. In this room and in adaptations, charts are these.
 Charts find_joined_charts(const WedgeMesh& mesh);
 
 /// The wedge at every corner while the mesh collapses.
@@ -60,22 +76,25 @@ class WedgeTable {
   explicit WedgeTable(const WedgeMesh& mesh);
   std::uint32_t at(std::uint32_t corner) const { return corners_[corner]; }
 
-  /// Of a wedge: see WedgeMesh. 0 without texture coordinates.
-  std::uint32_t texture_vertex(std::uint32_t wedge) const {
-    return texture_vertex_.empty() ? 0 : texture_vertex_[wedge];
+  bool has_charts() const { return !chart_vertex_.empty(); }
+  /// Whether charts end where materials or colours meet, too.
+  bool has_regions() const { return has_regions_; }
+  /// Of a wedge: see WedgeMesh::chart. 0 without charts.
+  std::uint32_t chart_vertex(std::uint32_t wedge) const {
+    return chart_vertex_.empty() ? 0 : chart_vertex_[wedge];
   }
 
   /// For the collapse u -> v, which wedge of v takes over from each wedge of u: the pairs at the
-  /// triangles that would die, and for further wedges those of their texture vertex. False when
-  /// some texture vertex of u meets none of v's, or two: u would leave the boundary of its texture
-  /// chart. Without texture coordinates there are no charts, and the first pair serves all.
+  /// triangles that would die, and for further wedges those of their chart vertex, of the nearest
+  /// normal. False when some chart vertex of u meets none of v's, or two: u would leave the
+  /// boundary of its chart. Without charts the first pair serves all.
   bool match(const CollapseMesh& mesh, std::uint32_t u, std::uint32_t v);
   const std::vector<Pair>& pairs() const { return pairs_; }
-  /// The first pair of each texture vertex of u.
-  const std::vector<Pair>& texture_pairs() const { return texture_pairs_; }
+  /// The first pair of each chart vertex of u.
+  const std::vector<Pair>& chart_pairs() const { return chart_pairs_; }
   /// How many of them, from the first on, copies of faces have no part in (FaceCopies).
   std::size_t n_sheet_pairs() const { return n_sheet_pairs_; }
-  /// After match(): whether v may move as well, for each of its texture vertices is met by just one
+  /// After match(): whether v may move as well, for each of its chart vertices is met by just one
   /// of u. Then pairs() has every wedge of v.
   bool match_both(const CollapseMesh& mesh, std::uint32_t v);
   /// Gives the moved corners the wedges of the last match, which must have been this collapse.
@@ -83,10 +102,14 @@ class WedgeTable {
 
  private:
   bool add_pair(const Pair& pair);
-  bool pair_rest(const CollapseMesh& mesh, std::uint32_t u);
-  std::vector<std::uint32_t> texture_vertex_;
+  bool pair_rest(const CollapseMesh& mesh, std::uint32_t u, std::uint32_t v);
+  bool keeps_texture(const Pair& pair) const;
+  std::uint32_t find_nearest(const CollapseMesh& mesh, std::uint32_t v, const Pair& pair) const;
+  std::vector<std::uint32_t> chart_vertex_, texture_vertex_;  // the latter if charts are finer
+  std::vector<glm::vec3> normals_;                            // of wedges; or empty
+  bool has_regions_ = false;
   LargeVector<std::uint32_t> corners_;
-  std::vector<Pair> pairs_, texture_pairs_;
+  std::vector<Pair> pairs_, chart_pairs_;
   std::size_t n_sheet_pairs_ = 0;
 };
 

@@ -82,6 +82,9 @@ void declare_build(Tool& tool, PmeshArguments& a) {
                  "turn v upside down, for files in which it runs against their pictures");
   build.add_flag("--no-texture", &a.no_texture,
                  "leave texture coordinates out: charts then hold nothing back");
+  build.add_option("--ignore", &a.ignored,
+                   "materials, colours or both (materials,colours): where they meet is then no "
+                   "border, and nothing is spent on them");
   build.add_flag("--exact", &a.exact, "look at every changed cost at once, not when it comes up");
 }
 
@@ -106,6 +109,20 @@ void set_stop(const std::string& text, PmeshArguments& a) {
       std::from_chars(text.data(), end, cost) != std::from_chars_result{end, std::errc()} ||
       !std::isfinite(cost) || !(cost > 0))
     refuse_stop(text);
+}
+
+void set_ignored(const std::string& text, BuildOptions& options) {
+  for (std::size_t first = 0, end = 0; end != std::string::npos; first = end + 1) {
+    end = text.find(',', first);
+    const std::string word = text.substr(first, end == std::string::npos ? end : end - first);
+    if (word == "materials")
+      options.ignore_materials = true;
+    else if (word == "colours" || word == "colors")
+      options.ignore_colours = true;
+    else
+      throw UsageError("--ignore '" + text + "': '" + word +
+                       "' is neither materials nor colours (materials,colours for both)");
+  }
 }
 
 // Options that do nothing under the metric chosen were meant for another.
@@ -149,6 +166,7 @@ void finish_build(const Tool& tool, PmeshArguments& a) {
   options.total_error = a.error == "total";
   options.measure = a.measure == "mean" ? Measure::mean : Measure::max;
   if (a.stop_at) set_stop(*a.stop_at, a);
+  if (a.ignored) set_ignored(*a.ignored, options);
   options.name = a.model;
   check_metric_options(tool.command("build"), a);
   check_texture_options(a);

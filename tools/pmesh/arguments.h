@@ -12,7 +12,7 @@ namespace viewcell {
 
 struct PmeshArguments {
   std::string model, metric = "qem3", placement, error = "total", measure = "max", pm;
-  std::optional<std::string> stop_at;
+  std::optional<std::string> stop_at, ignored;
   bool unweighted = false, mean = false, exact = false, no_texture = false, flip_v = false;
   std::optional<std::size_t> n_faces;        ///< of extract
   std::optional<std::string> within;         ///< of extract: a Length

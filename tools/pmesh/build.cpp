@@ -29,6 +29,8 @@ Json format_options(const BuildOptions& b) {
   if (b.weld_tolerance) out["weld_tolerance"] = *b.weld_tolerance;
   if (std::isfinite(b.error_bound)) out["error_bound"] = b.error_bound;
   if (b.lock_borders) out["lock_borders"] = true;
+  if (b.ignore_materials) out["ignore_materials"] = true;
+  if (b.ignore_colours) out["ignore_colours"] = true;
   if (b.track_error) out["track_error"] = true;
   if (b.refuse_folds) out["refuse_folds"] = true;
   if (b.charts_apart_px > 0) out["charts_apart_px"] = b.charts_apart_px;
@@ -58,10 +60,13 @@ Json format_refused(const CollapseCounts& counts) {
 }
 
 // What helps where charts hold collapses back.
-const char* advise(const PmeshArguments& a, const CollapseCounts& counts) {
-  const bool by_chart = counts.n_refused[static_cast<std::size_t>(Refusal::chart)] > 0;
-  const bool can_leave_out = !texture_needs(a.build).coordinates;
-  return by_chart && can_leave_out ? "; --no-texture leaves charts out" : "";
+std::string advise(const PmeshArguments& a, const BuildResult& result) {
+  if (result.counts.n_refused[static_cast<std::size_t>(Refusal::chart)] == 0) return "";
+  std::string out;
+  if (!result.record.texcoords.empty() && !texture_needs(a.build).coordinates)
+    out += "; --no-texture leaves charts out";
+  if (result.n_region_edges > 0) out += "; --ignore materials,colours leaves their borders out";
+  return out;
 }
 
 // Lengths that are shares of the mesh.
@@ -129,12 +134,13 @@ int build(const Tool& tool, const PmeshArguments& a) {
                {"pieces", result.pieces.n},
                {"pieces_small", result.pieces.n_small},
                {"vertices_locked", result.n_locked},
+               {"region_edges", result.n_region_edges},
                {"faces_dropped", result.n_dropped},
                {"timing", {{"read_s", read_s}, {"build_s", build_s}}}});
   if (!is_short) return 0;
   std::fprintf(stderr, "pmesh: %s: %zu faces were asked for, %zu remain; refused: %s%s\n",
                a.model.c_str(), options.target_faces, n_base, format_refusals(counts).c_str(),
-               advise(a, counts));
+               advise(a, result).c_str());
   return kOverThreshold;
 }
 
