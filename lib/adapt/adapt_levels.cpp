@@ -78,14 +78,15 @@ AdaptLevels::AdaptLevels(const ProgressiveRecord& record, const AdaptationLog& l
       finest_(make_level_charts(mesh_, log)) {
   if (options_.start) mesh_.set_faces(options_.start_faces);
   const int width_px = options_.width_px, height_px = options_.height_px;
+  const LevelCharts owners = make_owner_charts(mesh_, log_);
   const auto make = [&]<typename Texel>(Image<Texel> image) {
     if (options_.gl)
       adapter_ =
           std::make_unique<AdapterOf<Texel, GlTextureAdapter<Texel>>>(GlTextureAdapter<Texel>(
-              *options_.gl, log_, image, charts(), n_collapsed(), {.pack = options_.adapt.pack}));
+              *options_.gl, log_, image, owners, n_collapsed(), {.pack = options_.adapt.pack}));
     else
       adapter_ = std::make_unique<AdapterOf<Texel, TextureAdapter<Texel>>>(
-          TextureAdapter<Texel>(log_, image, charts(), n_collapsed(), options_.adapt));
+          TextureAdapter<Texel>(log_, image, owners, n_collapsed(), options_.adapt));
   };
   const auto make_map = [&]<typename Texel>(Texel) {
     if (options_.start)

@@ -52,6 +52,13 @@ int turn_of(const glm::vec2& a, const glm::vec2& b, const glm::vec2& c) {
   return std::abs(area2) <= most ? 0 : area2 > 0 ? 1 : -1;
 }
 
+void add_face(const ProgressiveRecord& record, const AdaptationLog& log, std::size_t face,
+              LevelCharts& out) {
+  const Triangle& t = record.faces[face];
+  out.faces.push_back({record.texcoords[t[0]], record.texcoords[t[1]], record.texcoords[t[2]]});
+  out.charts.push_back(log.charts[face]);
+}
+
 // Maps one collapse after another and appends its overlay cells to the log.
 class LogBuilder {
  public:
@@ -89,6 +96,7 @@ class LogBuilder {
   bool stays(std::uint32_t v, const glm::vec3& position) const;
   void move(std::uint32_t v, const glm::vec3& position, std::span<const WedgeMove> moves);
   void merge(const VertexSplit& split);
+  void vanish();
   void collapse_edge(const VertexSplit& split, Step step);
   Step add(bool is_mapped, bool is_move = false);
   void end_step(Step step);
@@ -161,9 +169,21 @@ void LogBuilder::merge(const VertexSplit& split) {
   map_.forget();
 }
 
+// Nothing of the texture changes.
+void LogBuilder::vanish() {
+  std::vector<std::uint32_t> faces;
+  const ProgressiveRecord& record = coarser_.record();
+  for (std::size_t i = 0; i < record.splits[coarser_.level()].n_born; ++i)
+    faces.push_back(record.born[coarser_.first_born() + i]);
+  mesh_.remove(faces, trace_);
+  map_.forget();
+  for (std::size_t i = 0; i < log_.steps_per_collapse; ++i) mark_start();
+}
+
 void LogBuilder::collapse() {
   coarser_.coarsen();
   const VertexSplit split = coarser_.record().splits[coarser_.level()];
+  if (split.is_piece()) return vanish();
   const Step step = add(map_.build(split.child, split.parent));
   if (log_.steps_per_collapse == 2) return collapse_edge(split, step);
   end_step(step);
@@ -332,13 +352,14 @@ bool is_within_reach(const AdaptationPoint& point) {
 
 LevelCharts make_level_charts(const ProgressiveMesh& mesh, const AdaptationLog& log) {
   LevelCharts out;
-  const ProgressiveRecord& record = mesh.record();
-  for (std::size_t f = 0; f < record.faces.size(); ++f) {
-    if (!mesh.has_face(f)) continue;
-    const Triangle& t = record.faces[f];
-    out.faces.push_back({record.texcoords[t[0]], record.texcoords[t[1]], record.texcoords[t[2]]});
-    out.charts.push_back(log.charts[f]);
-  }
+  for (std::size_t f = 0; f < mesh.record().faces.size(); ++f)
+    if (mesh.has_face(f)) add_face(mesh.record(), log, f, out);
+  return out;
+}
+
+LevelCharts make_owner_charts(const ProgressiveMesh& mesh, const AdaptationLog& log) {
+  LevelCharts out = make_level_charts(mesh, log);
+  mesh.for_each_vanished_face([&](std::size_t f) { add_face(mesh.record(), log, f, out); });
   return out;
 }
 

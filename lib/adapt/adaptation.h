@@ -45,8 +45,8 @@ struct Adaptation {
 
 /// The collapses of a progressive mesh from its finest level to its base, step by step: a half-edge
 /// collapse is one step; a full-edge collapse is two, a half-edge collapse and a move of the vertex
-/// that stays, in either order. A step with no triangles leaves the texture as it is. About 300
-/// bytes a step.
+/// that stays, in either order. A step with no triangles leaves the texture as it is: so do those
+/// of a piece that vanishes. About 300 bytes a step.
 struct AdaptationLog {
   std::vector<AdaptationPoint> points;
   std::vector<AdaptationTriangle> triangles;
@@ -75,6 +75,8 @@ struct LevelCharts {
   std::vector<std::uint32_t> charts;  ///< of the faces
 };
 LevelCharts make_level_charts(const ProgressiveMesh& mesh, const AdaptationLog& log);
+/// And those of pieces that have vanished, as they were then: their texels wait for them.
+LevelCharts make_owner_charts(const ProgressiveMesh& mesh, const AdaptationLog& log);
 
 /// Rebuilds the overlay cells of every collapse, points matched by nearness as in the mapping
 /// metric. The record must have texture coordinates and be sound (see check_record). Throws

@@ -144,13 +144,15 @@ void SectionReader::read_at(std::uint64_t offset, char* to, std::uint64_t n) con
   }
 }
 
-Json SectionReader::read_info(const std::string& format, int version) const {
+Json SectionReader::read_info(const std::string& format, int version, int newest) const {
   const auto bytes = read<char>("INFO");
   Json json = parse_json(std::string(bytes.begin(), bytes.end()), file_);
   const JsonCursor info(json, file_);
   if (info.at("format").string() != format) info.at("format").fail("is not " + format);
-  if (info.at("version").integer(0, 1 << 30) != version)
-    info.at("version").fail("is not " + std::to_string(version));
+  const std::int64_t found = info.at("version").integer(0, 1 << 30);
+  if (found < version || found > std::max(version, newest))
+    info.at("version").fail("is not " + std::to_string(version) +
+                            (newest > version ? " to " + std::to_string(newest) : ""));
   return json;
 }
 

@@ -71,9 +71,9 @@ class SectionReader {
     values.resize(section.n_bytes / sizeof(T));
     read_bytes(section, reinterpret_cast<char*>(values.data()));
   }
-  /// The JSON object in section INFO, whose "format" and "version" must be the ones given. Throws
-  /// InputError.
-  Json read_info(const std::string& format, int version) const;
+  /// The JSON object in section INFO, whose "format" must be the one given, and "version" the
+  /// one given or one from there to `newest`. Throws InputError.
+  Json read_info(const std::string& format, int version, int newest = 0) const;
   /// XXH3 of the table, which holds the hashes of all sections: no other content has it.
   std::uint64_t table_hash() const { return table_hash_; }
   std::uint64_t n_bytes(const std::string& tag) const { return find(tag).n_bytes; }

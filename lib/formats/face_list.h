@@ -31,11 +31,8 @@ struct TriangleSources {
 /// are left out. Vertices must be in range. sources: if wanted.
 void cut_faces(const FaceList& faces, TriMesh& mesh, TriangleSources* sources, Remarks* remarks);
 
-/// The vertices of a mesh's corners.
-inline std::span<const std::uint32_t> corners_of(const TriMesh& mesh) {
-  if (mesh.triangles.empty()) return {};
-  return {mesh.triangles[0].data(), 3 * mesh.triangles.size()};
-}
+/// The corners of all triangles, one after another.
+std::span<const std::uint32_t> corners_of(const TriMesh& mesh);
 
 /// Sets positions and offset (mesh/offset.h) to vertices at `places`, of which those count that
 /// corners name; where none is named, all. stated: an offset that the file names, taken if it

@@ -9,6 +9,8 @@
 #include "pm/border_edges.h"
 #include "pm/recorded_metric.h"
 #include "pm/recorder.h"
+#include "pm/vanish_map.h"
+#include "pm/vanishing_pieces.h"
 #include "pm/wedge_mesh.h"
 
 namespace viewcell {
@@ -47,11 +49,19 @@ struct Units {
   float in_input(float length) const { return length / scale; }
 };
 
+// What is made from the mesh before any metric: at its positions and faces, without copies.
+struct Start {
+  std::span<const glm::vec3> positions;
+  std::span<const Triangle> triangles;
+  const std::vector<bool>& locked;
+  AttributeCost* attributes;  // or none
+  VanishingPieces pieces;
+};
+
 // Runs the loop in slices, for the progress.
 template <typename Metric>
 CollapseCounts collapse_all(CollapseMesh& mesh, Metric& metric, Recorder& recorder,
-                            CollapseBound* guard, ChartGuard* charts,
-                            const std::vector<bool>& locked, AttributeCost* attributes,
+                            CollapseBound* guard, ChartGuard* charts, Start& begin,
                             const Units& units, const BuildOptions& options,
                             const Progress& progress) {
   constexpr std::size_t kSlices = 100;
@@ -62,8 +72,14 @@ CollapseCounts collapse_all(CollapseMesh& mesh, Metric& metric, Recorder& record
                                   units.in_metric(options.error_bound - units.gap),
                                   texture_needs(options).no_folds,
                                   charts,
-                                  locked,
-                                  attributes};
+                                  begin.locked,
+                                  begin.attributes,
+                                  begin.pieces,
+                                  nullptr,
+                                  units.in_metric(options.max_cost)};
+  std::optional<VanishMapper> mapper;
+  if (begin.pieces.cost() < std::numeric_limits<float>::infinity() && recorded.error() >= 0)
+    recorded.mapper = &mapper.emplace(mesh, begin.positions, begin.triangles);
   CollapseLoop loop(mesh, recorded);
   const std::size_t start = mesh.n_triangles();
   const std::size_t span = start - std::min(start, std::max<std::size_t>(options.target_faces, 1));
@@ -82,6 +98,7 @@ CollapseCounts collapse_all(CollapseMesh& mesh, Metric& metric, Recorder& record
                                             .lazy = options.lazy},
                                            made);
     total.n_collapses += counts.n_collapses;
+    total.n_vanished += counts.n_vanished;
     total.n_costs += counts.n_costs;
     total.n_visited = counts.n_visited;
     for (std::size_t i = 0; i < counts.n_refused.size(); ++i)
@@ -95,8 +112,7 @@ CollapseCounts collapse_all(CollapseMesh& mesh, Metric& metric, Recorder& record
 
 // triangles: without copies.
 CollapseCounts run_metric(CollapseMesh& mesh, WedgeMesh& wedges,
-                          const std::vector<Triangle>& triangles, Recorder& recorder,
-                          const std::vector<bool>& locked, AttributeCost* attributes,
+                          const std::vector<Triangle>& triangles, Recorder& recorder, Start& start,
                           const Units& units, const BuildOptions& options,
                           const Progress& progress) {
   std::span<glm::vec3> positions = wedges.positions;
@@ -108,7 +124,7 @@ CollapseCounts run_metric(CollapseMesh& mesh, WedgeMesh& wedges,
     charts.emplace(wedges, options.charts_apart_px);
   const auto run = [&](auto&& metric) {
     return collapse_all(mesh, metric, recorder, guard ? &*guard : nullptr,
-                        charts ? &*charts : nullptr, locked, attributes, units, options, progress);
+                        charts ? &*charts : nullptr, start, units, options, progress);
   };
   if (options.metric == MetricKind::mapping && options.placement == Placement::full) {
     if (options.measure == Measure::mean)
@@ -136,8 +152,16 @@ CollapseCounts run_metric(CollapseMesh& mesh, WedgeMesh& wedges,
   return run(QemMetric(positions, triangles, options.qem));
 }
 
-PieceCounts count_pieces(const std::vector<Triangle>& triangles, std::size_t n_vertices) {
-  const Charts pieces = connect_charts(triangles, n_vertices, ChartLink::corner);
+// In the unit of the metric, see PieceCost.
+PieceCost piece_cost(const BuildOptions& options) {
+  const MetricKind metric = options.metric;
+  if (metric == MetricKind::mapping && options.measure == Measure::mean) return PieceCost::area;
+  if ((metric != MetricKind::qem3 && metric != MetricKind::qem5) || options.qem.mean)
+    return PieceCost::radius;
+  return options.qem.area_weighted ? PieceCost::area : PieceCost::planes;
+}
+
+PieceCounts count_pieces(const Charts& pieces) {
   std::vector<std::size_t> sizes(pieces.size(), 0);
   for (const std::uint32_t piece : pieces.of) ++sizes[piece];
   PieceCounts out{pieces.size()};
@@ -158,6 +182,15 @@ AttributeCost make_attribute_cost(const WedgeMesh& wedges, const std::vector<Tri
   out.scale =
       make_quadric_scale(wedges.positions, triangles, {.area_weighted = true, .mean = is_mean});
   return {wedges, wedges.positions, triangles, mesh.colors, out};
+}
+
+// triangles: with copies.
+void find_pieces(const std::vector<Triangle>& triangles, const VanishOptions& vanish,
+                 const BuildOptions& options, PieceCounts& counts, Start& start) {
+  const Charts pieces = connect_charts(triangles, start.positions.size(), ChartLink::corner);
+  counts = count_pieces(pieces);
+  if (!options.keep_pieces && pieces.size() > 1)
+    start.pieces = VanishingPieces(start.positions, triangles, pieces, vanish);
 }
 
 WeldOptions weld_options(const TriMesh& mesh, const BuildOptions& options) {
@@ -232,16 +265,19 @@ BuildResult build_progressive_mesh(const TriMesh& mesh, const BuildOptions& opti
   CollapseMesh work(wedges.positions, triangles, copies);
   Recorder recorder(wedges, mesh, units.scale, options.placement == Placement::full);
   BuildResult result;
-  result.pieces = count_pieces(triangles, wedges.positions.size());
-  triangles = without_copies(std::move(triangles), copies);
-  std::vector<bool> locked;
-  if (options.lock_borders) locked = find_border_vertices(triangles, wedges.positions.size());
-  result.n_locked = static_cast<std::size_t>(std::count(locked.begin(), locked.end(), true));
-  AttributeCost attributes = make_attribute_cost(wedges, triangles, mesh, options);
+  const std::size_t n_vertices = wedges.positions.size();
+  VanishOptions vanish{piece_cost(options), {}};
+  const std::vector<Triangle> sheets = without_copies(triangles, copies);
+  if (options.lock_borders) vanish.locked = find_border_vertices(sheets, n_vertices);
+  AttributeCost attributes = make_attribute_cost(wedges, sheets, mesh, options);
+  Start start{
+      wedges.positions, sheets, vanish.locked, attributes.is_empty() ? nullptr : &attributes, {}};
+  find_pieces(triangles, vanish, options, result.pieces, start);
+  triangles = {};
   result.n_region_edges = attributes.n_border_edges();
-  result.counts =
-      run_metric(work, wedges, triangles, recorder, locked,
-                 attributes.is_empty() ? nullptr : &attributes, units, options, progress);
+  result.n_locked =
+      static_cast<std::size_t>(std::count(vanish.locked.begin(), vanish.locked.end(), true));
+  result.counts = run_metric(work, wedges, sheets, recorder, start, units, options, progress);
   result.record = recorder.finish();
   result.n_welded = wedges.n_welded;
   result.n_dropped = wedges.n_dropped;

@@ -40,6 +40,10 @@ struct BuildOptions {
   bool lock_borders = false;
   /// Where materials, or colours at one position, meet are no borders, and colours cost nothing.
   bool ignore_materials = false, ignore_colours = false;
+  /// Every piece (a part that neither edges nor vertices join to others) stays. Otherwise one goes
+  /// when no collapse costs less than its end (PieceCost), all but the largest, and those with
+  /// locked vertices.
+  bool keep_pieces = false;
   /// Every level knows its error(), whatever the metric. Levels of aps and mapping do (total, max),
   /// and those of an error bound.
   bool track_error = false;

@@ -25,10 +25,11 @@ struct CollapseLimits {
 
 struct CollapseCounts {
   std::size_t n_collapses = 0;
+  std::size_t n_vanished = 0;   ///< pieces
   std::size_t n_costs = 0;      ///< evaluations of the metric
   std::uint64_t n_visited = 0;  ///< triangles gone through around vertices, since the mesh was made
   std::array<std::size_t, kRefusalKinds> n_refused{};  ///< by Refusal
-  float last_cost = 0;                                 ///< the highest cost of a collapse made
+  float last_cost = 0;  ///< the highest cost of a collapse made, or of a piece that vanished
 };
 
 /// For metrics that say no more than yes or no.
@@ -56,6 +57,12 @@ inline Refusal as_refusal(Refusal refusal) {
 /// - float cost_at(u, v, position): of going to another place; where v is a hub and stays, it must
 ///   not look at all of its triangles. Not needed where cost() and stays() know of hubs;
 /// - void collapsed(u, v, position): moves v.
+/// Where pieces (parts that neither edges nor vertices join) may vanish whole, which they do as
+/// soon as no collapse costs less:
+/// - float vanish_cost(): of the next piece; infinity: there is none;
+/// - Refusal check_vanish(): a last check; what is refused is not next any more;
+/// - std::span<const uint32_t> vanishing(): the triangles of the piece checked last;
+/// - float vanished(v, trace): called after they are gone, v one of the vertices; returns the cost.
 /// Metric::kReach (1 where there is none): 1 when a collapse u -> v changes costs of pairs with v
 /// only; 2 when it changes those of every vertex around v.
 ///
@@ -82,11 +89,16 @@ class CollapseLoop {
   CollapseCounts run(const CollapseLimits& limits) {
     return run(limits, [](std::uint32_t, std::uint32_t, float, const CollapseTrace&) {});
   }
-  /// made(u, v, cost, trace) is called after each collapse.
+  /// made(u, v, cost, trace) is called after each collapse; with u = v when a piece has vanished.
   template <typename Made>
   CollapseCounts run(const CollapseLimits& limits, Made&& made) {
     CollapseCounts counts;
-    while (mesh_.n_triangles() > limits.target_triangles && !heap_.empty()) {
+    while (mesh_.n_triangles() > limits.target_triangles) {
+      if (vanishes_next(limits.max_cost)) {
+        vanish(counts, made);
+        continue;
+      }
+      if (heap_.empty()) break;
       const std::uint32_t u = heap_.top(), v = target_[u];
       fetch_next();
       float cost = heap_.key(u);
@@ -125,6 +137,7 @@ class CollapseLoop {
   };
   static constexpr bool kEstimates = requires(Metric m) { m.cost_at_least(0u, 0u); };
   static constexpr bool kHasPlacement = requires(Metric m) { m.optimal_position(0u, 0u); };
+  static constexpr bool kVanishes = requires(Metric m) { m.vanish_cost(); };
   static constexpr int reach() {
     if constexpr (requires { Metric::kReach; }) return Metric::kReach;
     return 1;
@@ -160,6 +173,33 @@ class CollapseLoop {
     if constexpr (kHasPlacement && requires { metric_.cost_at(u, v, position_); })
       if (mesh_.is_hub(v)) return metric_.cost_at(u, v, mesh_.position(v));
     return metric_.cost(u, v);
+  }
+
+  bool vanishes_next(float max_cost) const {
+    if constexpr (kVanishes) {
+      const float cost = metric_.vanish_cost();
+      return cost < kNever && cost <= max_cost && (heap_.empty() || cost <= heap_.key(heap_.top()));
+    }
+    return false;
+  }
+
+  template <typename Made>
+  void vanish(CollapseCounts& counts, Made&& made) {
+    if constexpr (kVanishes) {
+      const Refusal refusal = metric_.check_vanish();
+      if (refusal != Refusal::none) {
+        ++counts.n_refused[static_cast<std::size_t>(refusal)];
+        return;
+      }
+      mesh_.remove(metric_.vanishing(), trace_);
+      for (const std::uint32_t t : trace_.died)
+        for (std::uint32_t c = 3 * t; c < 3 * t + 3; ++c) heap_.erase(mesh_.vertex_at(c));
+      const std::uint32_t v = mesh_.vertex_at(3 * trace_.died.front());
+      const float cost = metric_.vanished(v, trace_);
+      counts.last_cost = std::max(counts.last_cost, cost);
+      ++counts.n_vanished;
+      made(v, v, cost, trace_);
+    }
   }
 
   // Sets position_; whether v keeps its own.

@@ -107,6 +107,22 @@ void CollapseMesh::collapse(std::uint32_t u, std::uint32_t v, CollapseTrace* tra
   if (lists_.is_hub(v) && !links_.is_hub(v)) set_hub(v, true);
 }
 
+void CollapseMesh::remove(std::span<const std::uint32_t> triangles, CollapseTrace& trace) {
+  trace.died.assign(triangles.begin(), triangles.end());
+  trace.moved.clear();
+  for (const std::uint32_t t : triangles) {
+    const bool is_copy = !copies_.empty() && copies_.is_copy[t];
+    if (links_.has_hubs() && !is_copy) links_.remove(triangle_at(vertices_, t));
+    lists_.kill(t);
+    --n_triangles_, n_sheet_ -= !is_copy;
+  }
+  for (const std::uint32_t t : triangles)
+    for (std::uint32_t c = 3 * t; c < 3 * t + 3; ++c) {
+      lists_.clear(vertices_[c]);
+      links_.forget(vertices_[c]);
+    }
+}
+
 std::vector<std::uint32_t> CollapseMesh::triangle_numbers() const {
   std::vector<std::uint32_t> out;
   out.reserve(n_triangles_);

@@ -99,6 +99,8 @@ class CollapseMesh {
   /// Collapses u into v: triangles with both die, the others of u get v instead. trace: set to
   /// what was done.
   void collapse(std::uint32_t u, std::uint32_t v, CollapseTrace* trace = nullptr);
+  /// Takes out triangles: all that their vertices have, copies too. trace: set to what was done.
+  void remove(std::span<const std::uint32_t> triangles, CollapseTrace& trace);
   /// Whether u and v are corners of a triangle that stands alone: their collapse would be its end.
   bool is_lone_triangle(std::uint32_t u, std::uint32_t v) const;
   /// Whether some edge of v has an odd number of triangles. Not thread-safe.

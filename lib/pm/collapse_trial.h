@@ -53,6 +53,10 @@ class CollapseTrial {
     is_mapped_ ? deviations_.accept(change_) : deviations_.invalidate();
     map_.forget();
   }
+  /// Of the collapse measured last: Deviations::vanished_reach().
+  float vanished_reach() const { return deviations_.vanished_reach(change_); }
+  /// A piece vanishes by this map.
+  void accept(const VanishMap& map) { deviations_.accept(map); }
   const Deviations& deviations() const { return deviations_; }
 
  private:

@@ -49,6 +49,16 @@ class MappingMetric {
   /// With `total` and Measure::max: no point of the mesh, nor of the input, is farther than this
   /// from the other surface; otherwise below 0.
   float bound() const { return is_bound() ? boxes_.bound() : -1; }
+  /// How far what has vanished would be off after the collapse that was allowed last; 0 where there
+  /// is no bound. Costs say nothing of it.
+  float vanished_reach() const { return is_bound() ? boxes_.vanished_reach(boxes_change_) : 0; }
+  /// The same for a piece that vanishes.
+  float vanish_reach(const VanishMap& map) const {
+    return is_bound() ? boxes_.vanish_reach(map) : 0;
+  }
+  void vanished(const VanishMap& map) {
+    if (is_bound()) boxes_.accept(map);
+  }
 
  private:
   bool is_bound() const { return options_.total && options_.measure == Measure::max; }
@@ -98,11 +108,25 @@ class MappingFullMetric {
   }
   /// As MappingMetric::bound().
   float bound() const {
-    if constexpr (requires { trial_.deviations().bound(); }) return trial_.deviations().bound();
+    if constexpr (kBounds) return trial_.deviations().bound();
     return -1;
+  }
+  /// As of MappingMetric.
+  float vanished_reach() const {
+    if constexpr (kBounds) return trial_.vanished_reach();
+    return 0;
+  }
+  float vanish_reach(const VanishMap& map) const {
+    if constexpr (kBounds) return trial_.deviations().vanish_reach(map);
+    return 0;
+  }
+  void vanished(const VanishMap& map) {
+    if constexpr (kBounds) trial_.accept(map);
   }
 
  private:
+  static constexpr bool kBounds = requires(const Deviations d) { d.bound(); };
+
   LindstromTurkMetric positioner_;
   CollapseTrial<Deviations> trial_;
 };

@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::uint32_t kKind = 4;
 constexpr const char* kFormat = "viewcell-pm";
-constexpr int kVersion = 1;
+constexpr int kVersion = 1, kVersionWithPieces = 2;
 
 template <typename Vec>
 void check_finite(const SectionReader& reader, const char* tag, const std::vector<Vec>& values) {
@@ -25,7 +25,7 @@ void write_pm(const std::filesystem::path& file, const ProgressiveRecord& r) {
   SectionWriter writer(kKind);
   const TriMesh& a = r.attributes;
   Json info{{"format", kFormat},
-            {"version", kVersion},
+            {"version", count_vanishing_pieces(r) > 0 ? kVersionWithPieces : kVersion},
             {"material_names", a.material_names},
             {"full_edge", r.is_full_edge()},
             {"made_by", r.made_by.empty() ? Json() : Json::parse(r.made_by)}};
@@ -55,7 +55,7 @@ void write_pm(const std::filesystem::path& file, const ProgressiveRecord& r) {
 
 ProgressiveRecord read_pm(const std::filesystem::path& file) {
   const SectionReader reader(file, kKind, "a progressive mesh (.pm)");
-  const Json json = reader.read_info(kFormat, kVersion);
+  const Json json = reader.read_info(kFormat, kVersion, kVersionWithPieces);
   const JsonCursor info(json, file);
   ProgressiveRecord r;
   TriMesh& a = r.attributes;
@@ -95,6 +95,8 @@ ProgressiveRecord read_pm(const std::filesystem::path& file) {
   check_finite(reader, "OLDTEX", r.parent_texcoords);
   if (a.positions.empty() || r.faces.empty()) reader.fail("FACES", "holds no mesh");
   if (const std::string wrong = check_record(r); !wrong.empty()) reader.fail("SPLITS", wrong);
+  if (count_vanishing_pieces(r) > 0 && json["version"] == kVersion)
+    reader.fail("SPLITS", "has pieces that vanish, which are of version 2");
   return r;
 }
 

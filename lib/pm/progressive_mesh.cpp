@@ -56,6 +56,11 @@ std::vector<glm::vec3> compute_wedge_normals(const TriMesh& mesh, std::span<cons
   return out;
 }
 
+std::size_t count_whole_pieces(std::span<const VertexSplit> splits) {
+  return static_cast<std::size_t>(std::count_if(
+      splits.begin(), splits.end(), [](const VertexSplit& split) { return split.is_piece(); }));
+}
+
 }  // namespace
 
 ProgressiveMesh::ProgressiveMesh(ProgressiveRecord record)
@@ -112,6 +117,10 @@ void ProgressiveMesh::coarsen() {
   for (std::size_t i = at_born_; i < at_born_ + split.n_born; ++i)
     is_alive_[record_.born[i]] = false;
   swap_stash(split, at_pair_, false);
+}
+
+std::size_t ProgressiveMesh::n_vanished() const {
+  return count_whole_pieces(std::span(record_.splits).subspan(level_));
 }
 
 void ProgressiveMesh::set_faces(std::size_t n) {
@@ -218,7 +227,8 @@ std::string check_ranges(const ProgressiveRecord& r, std::size_t n_wedges) {
 
 // Makes the splits one after another and checks that each is the inverse of an edge collapse, since
 // logs of adaptations replay the collapses: every face at the child is born or moved by the split,
-// and exactly the born ones have the edge.
+// and exactly the born ones have the edge; or that it brings faces with vertices that no other face
+// has.
 class SplitChecker {
  public:
   explicit SplitChecker(const ProgressiveRecord& r)
@@ -244,6 +254,8 @@ class SplitChecker {
   std::string check_pairs(const VertexSplit& split) const;
   std::string move_corners(const VertexSplit& split);
   std::string bear_faces(const VertexSplit& split);
+  std::string bear_piece(const VertexSplit& split);
+  void bear(std::uint32_t face);
 
   const ProgressiveRecord& r_;
   std::vector<Triangle> faces_;
@@ -265,8 +277,8 @@ std::string SplitChecker::check_base() {
 std::string SplitChecker::check(const VertexSplit& split) {
   if (std::max(split.child, split.parent) >= n_corners_.size())
     return "names a vertex out of range";
-  if (split.child == split.parent || n_corners_[split.child] > 0)
-    return "has a child that is there already";
+  if (n_corners_[split.child] > 0) return "has a child that is there already";
+  if (split.is_piece()) return bear_piece(split);
   std::string wrong = check_pairs(split);
   if (wrong.empty()) wrong = move_corners(split);
   if (wrong.empty()) wrong = bear_faces(split);
@@ -305,9 +317,29 @@ std::string SplitChecker::bear_faces(const VertexSplit& split) {
     const std::uint32_t f = r_.born[born_];
     if (count(faces_[f], split.child) != 1 || count(faces_[f], split.parent) != 1)
       return "brings a face that has not the edge";
-    is_alive_[f] = true;
-    for (const std::uint32_t wedge : faces_[f]) ++n_corners_[vertex_of(wedge)];
+    bear(f);
   }
+  return "";
+}
+
+void SplitChecker::bear(std::uint32_t face) {
+  is_alive_[face] = true;
+  for (const std::uint32_t wedge : faces_[face]) ++n_corners_[vertex_of(wedge)];
+}
+
+std::string SplitChecker::bear_piece(const VertexSplit& split) {
+  if (split.n_moved > 0 || split.n_pairs > 0) return "brings a piece and moves others";
+  const std::size_t first = born_;
+  std::ptrdiff_t n_at_vertex = 0;
+  for (born_ = first; born_ < first + split.n_born; ++born_) {
+    const Triangle& face = faces_[r_.born[born_]];
+    n_at_vertex += count(face, split.child);
+    for (const std::uint32_t wedge : face)
+      if (n_corners_[vertex_of(wedge)] > 0 || count(face, vertex_of(wedge)) != 1)
+        return "brings a piece that joins what is there, or a face without an area";
+  }
+  if (n_at_vertex == 0) return "brings a piece without its vertex";
+  for (std::size_t i = first; i < born_; ++i) bear(r_.born[i]);
   return "";
 }
 
@@ -321,6 +353,10 @@ std::string check_splits(const ProgressiveRecord& r) {
 }
 
 }  // namespace
+
+std::size_t count_vanishing_pieces(const ProgressiveRecord& record) {
+  return count_whole_pieces(record.splits);
+}
 
 ProgressiveMesh make_finest(const ProgressiveRecord& record) {
   ProgressiveMesh mesh(record);

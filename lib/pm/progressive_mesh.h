@@ -12,7 +12,8 @@
 namespace viewcell {
 
 /// One vertex split, which undoes the collapse child -> parent. Its lists lie one after another in
-/// the record's arrays.
+/// the record's arrays. Where child and parent are the same vertex, a piece that had vanished comes
+/// back whole: faces with it and with others that are at no face before; nothing moves.
 struct VertexSplit {
   std::uint32_t child = 0, parent = 0;  ///< vertices
   std::uint32_t n_born = 0;             ///< faces that come back
@@ -22,6 +23,8 @@ struct VertexSplit {
   /// After the collapse no point of mesh or input is farther than this from the other surface;
   /// below 0: not known.
   float error = -1;
+
+  bool is_piece() const { return child == parent; }
 };
 static_assert(sizeof(VertexSplit) == 28);
 
@@ -63,8 +66,20 @@ class ProgressiveMesh {
   std::size_t n_faces() const { return n_faces_; }
   std::size_t n_base_faces() const { return n_base_faces_; }
   std::size_t n_splits() const { return record_.splits.size(); }
-  /// Index into the record's pairs of the first of split level(), the next that refine() makes.
+  /// Pieces of the input that have vanished whole from this level.
+  std::size_t n_vanished() const;
+  /// Calls visit(face) for their faces, which the record has as they were when they vanished.
+  template <typename Visit>
+  void for_each_vanished_face(Visit&& visit) const {
+    std::size_t born = at_born_;
+    for (std::size_t i = level_; i < n_splits(); born += record_.splits[i].n_born, ++i)
+      for (std::size_t k = 0; k < record_.splits[i].n_born && record_.splits[i].is_piece(); ++k)
+        visit(record_.born[born + k]);
+  }
+  /// Index into the record's pairs of the first of split level(), the next that refine() makes; the
+  /// same of born.
   std::size_t first_pair() const { return at_pair_; }
+  std::size_t first_born() const { return at_born_; }
   bool has_face(std::size_t face) const { return is_alive_[face]; }
   /// Splits made so far: 0 at the base, n_splits() at the input.
   std::size_t level() const { return level_; }
@@ -101,6 +116,9 @@ class ProgressiveMesh {
   std::size_t n_faces_ = 0, n_base_faces_ = 0, level_ = 0;
   std::size_t at_born_ = 0, at_moved_ = 0, at_pair_ = 0;  // of the next split
 };
+
+/// Splits that bring whole pieces back: the pieces that are missing in the base.
+std::size_t count_vanishing_pieces(const ProgressiveRecord& record);
 
 /// A progressive mesh at the input, with all splits made.
 ProgressiveMesh make_finest(const ProgressiveRecord& record);

@@ -10,6 +10,8 @@
 #include "pm/collapse_loop.h"
 #include "pm/collapse_trial.h"
 #include "pm/recorder.h"
+#include "pm/vanish_map.h"
+#include "pm/vanishing_pieces.h"
 
 namespace viewcell {
 
@@ -26,10 +28,14 @@ struct RecordedMetric {
   ChartGuard* charts;               ///< to keep them apart, or none
   const std::vector<bool>& locked;  ///< vertices that neither move nor vanish; empty: none
   AttributeCost* attributes;        ///< of materials and colours, or none
+  VanishingPieces& pieces;
+  VanishMapper* mapper;  ///< of pieces that vanish, where there is a bound to keep; or none
+  float cost_bound;      ///< of metrics whose costs are bounds
   /// Where an edge may go in a full-edge collapse: nowhere, to its end v (from inside a chart to
   /// its border, from a border to where borders meet, to what is locked or a hub), to a point on
   /// itself (along a border), anywhere.
   enum class Way { none, to_end, along, free };
+  std::span<const std::uint32_t> live_faces = {};
   glm::vec3 last_position{0};
   Way last_way = Way::free;
 
@@ -99,7 +105,9 @@ struct RecordedMetric {
     const double t = closest_on_segment(glm::dvec3(last_position), a, b);
     return last_position = glm::vec3(glm::mix(a, b, t));
   }
+  /// Pieces do not end by collapses.
   Refusal allows(const CollapseMesh&, std::uint32_t u, std::uint32_t v) {
+    if (mesh.is_lone_triangle(u, v)) return Refusal::link;
     if (!recorder.match(mesh, u, v)) return Refusal::chart;
     if constexpr (kHasPlacement)
       if (!stays()) recorder.table().match_both(mesh, v);
@@ -110,9 +118,45 @@ struct RecordedMetric {
     if (refuse_folds && recorder.folds(mesh, u, v, moves_both)) return Refusal::fold;
     if (charts && recorder.overlaps(mesh, u, v, moves_both, *charts)) return Refusal::overlap;
     const Refusal refusal = metric_allows(u, v);
-    if (refusal != Refusal::none || !guard) return refusal;
+    if (refusal != Refusal::none) return refusal;
+    if constexpr (requires { metric.vanished_reach(); })
+      if (metric.vanished_reach() > cost_bound) return Refusal::bound;
+    if (!guard) return Refusal::none;
     const float reach = kHasPlacement ? guard->measure(u, v, last_position) : guard->measure(u, v);
-    return reach <= error_bound ? Refusal::none : Refusal::bound;
+    return std::max(reach, guard->vanished_reach()) <= error_bound ? Refusal::none : Refusal::bound;
+  }
+  float vanish_cost() const { return pieces.cost(); }
+  std::span<const std::uint32_t> vanishing() const { return live_faces; }
+  Refusal check_vanish() {
+    const Refusal refusal = find_vanish_refusal();
+    if (refusal != Refusal::none) pieces.pop();
+    return refusal;
+  }
+  Refusal find_vanish_refusal() {
+    live_faces = pieces.live_faces(mesh);
+    if (live_faces.empty() || live_faces.size() == mesh.n_triangles()) return Refusal::link;
+    if (!mapper) return Refusal::none;
+    bool fits = mapper->build(pieces.faces(), live_faces);
+    if constexpr (requires { metric.vanish_reach(mapper->map()); })
+      fits = fits && metric.vanish_reach(mapper->map()) <= cost_bound;
+    if (guard) fits = fits && guard->deviations().vanish_reach(mapper->map()) <= error_bound;
+    if (fits) return Refusal::none;
+    mapper->put_back(pieces.faces());
+    return Refusal::bound;
+  }
+  /// Where costs are bounds the cost is how far the piece is off, if that is more.
+  float vanished(std::uint32_t v, const CollapseTrace& trace) {
+    float cost = pieces.cost();
+    if (mapper) {
+      if constexpr (requires { metric.vanish_reach(mapper->map()); }) {
+        cost = std::max(cost, metric.vanish_reach(mapper->map()));
+        metric.vanished(mapper->map());
+      }
+      if (guard) guard->accept(mapper->map());
+    }
+    recorder.traced(v, v, trace);
+    pieces.pop();
+    return cost;
   }
   /// Whether the position lies outside the box around both stars by more than a quarter of the
   /// box's diagonal: the objective of a nearly flat surface may have its minimum far from it.
@@ -149,6 +193,7 @@ struct RecordedMetric {
     if constexpr (requires { metric.traced(u, v, trace); }) metric.traced(u, v, trace);
     if (attributes) attributes->merge(recorder.table(), u, v);
     recorder.traced(u, v, trace);
+    if (mapper) mapper->traced(u, v, trace);
   }
   template <typename... Position>
   void collapsed(std::uint32_t u, std::uint32_t v, const Position&... position) {

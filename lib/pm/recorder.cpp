@@ -58,11 +58,11 @@ void Recorder::merge(const CollapseMesh& mesh, std::uint32_t u, std::uint32_t v,
         glm::vec2(glm::mix(glm::dvec2(texcoords_[parent]), glm::dvec2(texcoords_[child]), along)));
 }
 
-void Recorder::traced(std::uint32_t, std::uint32_t v, const CollapseTrace& trace) {
-  moved_from_.clear();
+void Recorder::traced(std::uint32_t u, std::uint32_t v, const CollapseTrace& trace) {
+  moved_from_.clear(), matched_.clear();
   for (const std::uint32_t c : trace.moved) moved_from_.push_back(table_.at(c));
   table_.apply(trace);
-  matched_ = table_.pairs();
+  if (u != v) matched_ = table_.pairs();
   if (is_full_) parent_positions_.push_back(unscaled(v, mesh_.positions[v]));
 }
 
@@ -75,7 +75,7 @@ void Recorder::made(std::uint32_t u, std::uint32_t v, float cost, float error,
   for (const auto& [from, to] : matched_) pairs_.push_back({from, to});
   if (!is_full_) return;
   if (!texcoords_.empty()) move_texcoords();
-  has_moved_[v] = true;
+  has_moved_[v] = has_moved_[v] || u != v;
 }
 
 std::uint8_t Recorder::pair_index(std::uint32_t wedge) const {

@@ -39,7 +39,8 @@ class Recorder {
                 ChartGuard& charts) {
     return charts.overlaps(mesh, table_, texcoords_, u, v, merged_, moves_both);
   }
-  /// The triangles have changed; the parent has not moved yet.
+  /// The triangles have changed; the parent has not moved yet. u = v, here and below: a piece has
+  /// vanished, of which v was a vertex.
   void traced(std::uint32_t u, std::uint32_t v, const CollapseTrace& trace);
   /// The parent has moved. cost and error are in the input's units.
   void made(std::uint32_t u, std::uint32_t v, float cost, float error, const CollapseTrace& trace);

@@ -117,6 +117,47 @@ TEST(AdaptLevels, StartWhereAnotherStopped) {
   EXPECT_THROW(bump.levels(options), UsageError);
 }
 
+// A small pyramid with a chart beside the bump's vanishes, stays in the map, and comes back, also
+// where the map starts without it.
+TEST(AdaptLevels, PiecesVanishAndComeBack) {
+  Bump bump;
+  TriMesh grid = make_finest(bump.record).extract();
+  for (glm::vec2& uv : grid.texcoords) uv.x *= 0.8f;
+  const auto n = static_cast<std::uint32_t>(grid.positions.size());
+  const std::vector<glm::vec2> places{{0, 0}, {2, 0}, {2, 2}, {0, 2}, {1, 1}};
+  for (const glm::vec2& p : places)
+    grid.positions.emplace_back(0.01f * p, p == glm::vec2(1) ? 0.61f : 0.6f);
+  for (std::uint32_t k = 0; k < 4; ++k) {
+    grid.triangles.push_back({n + k, n + (k + 1) % 4, n + 4});
+    for (const std::uint32_t v : grid.triangles.back())
+      if (v >= n) grid.texcoords.push_back(glm::vec2(0.84f, 0.2f) + 0.07f * places[v - n]);
+  }
+  for (const MetricKind metric : {MetricKind::mapping, MetricKind::qem3})
+    for (const Placement placement : {Placement::half, Placement::full}) {
+      BuildOptions options;
+      options.metric = metric, options.placement = placement;
+      bump.record = build_progressive_mesh(grid, options).record;
+      bump.log = make_adaptation_log(bump.record);
+      ASSERT_EQ(count_vanishing_pieces(bump.record), 1u);
+      AdaptLevels levels = bump.levels();
+      const auto has_piece = [](const AdaptLevels& at) { return at.mesh().n_vanished() == 0; };
+      const ImageRgba8 whole = levels.bake();
+      levels.set_faces(1);
+      ASSERT_FALSE(has_piece(levels));
+      AdaptLevelsOptions from;
+      from.start = levels.map(), from.start_faces = levels.mesh().n_faces();
+      AdaptLevels rest = bump.levels(from);
+      std::size_t n_faces = 1;
+      while (!has_piece(rest)) rest.set_faces(++n_faces);
+      levels.set_faces(100000);
+      // All texels of its chart, which no others come near, show themselves as at the input.
+      for (const ImageRgba8& picture : {rest.bake(), levels.bake()})
+        for (int y = 15; y < 20; ++y)
+          for (int x = 84; x < 90; ++x)
+            EXPECT_EQ(picture.at(x, y), whole.at(x, y)) << x << " " << y;
+    }
+}
+
 // Maps of less precision are near, each as near as it can be, and none is another.
 TEST(AdaptLevels, KindsOfTexelsDiffer) {
   const Bump bump;

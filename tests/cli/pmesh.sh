@@ -127,6 +127,29 @@ printf 'OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n' >one.off
 expect 0 "$pmesh" build one.off -o one.pm
 expect 0 "$pmesh" extract one.pm --faces 1 -o one.ply
 
+# A room with lamps: they go before it does, and come back; --keep-pieces keeps them.
+{ ball 24 20
+  for lamp in 1 2 3 4 5 6 7 8; do ball 8 0.05 | awk -v at=$lamp 'NR > 2 && NF == 3 { $1 += at; $2 += at - 3 } 1'; done
+} | awk '$1 == "OFF" { getline; first += n; n = $1; next } NF == 3 { v[++nv] = $0; next }
+  { f[++nf] = $1 " " $2 + first " " $3 + first " " $4 + first }
+  END { print "OFF"; print nv, nf, 0; for (i = 1; i <= nv; i++) print v[i]; for (i = 1; i <= nf; i++) print f[i] }' >lamps.off
+expect 0 "$pmesh" build lamps.off --track-error -o lamps.pm --json report.json
+grep -q "lamps.off: pieces, .* vanish whole .*--keep-pieces keeps them) (8)" "$log/err" || fail "not said: $(cat "$log/err")"
+says report.json '.pieces == 9 and .pieces_vanished == 8' || fail "pieces: $(cat report.json)"
+expect 0 "$pmesh" info lamps.pm
+is pieces_vanished_base 8
+expect 0 "$pmesh" extract lamps.pm --faces 200 -o lamps.ply --json report.json
+grep -q "lamps.pm: pieces have vanished whole at this level (8)" "$log/err" || fail "not said: $(cat "$log/err")"
+says report.json '.pieces_vanished == 8' || fail "pieces: $(cat report.json)"
+expect 0 "$bin/meshdist" lamps.off lamps.ply --samples 20000 --fail-above "$(jq .error_bound report.json)"
+expect 0 "$pmesh" extract lamps.pm --faces 100000 -o lamps.ply --json report.json
+says report.json '.pieces_vanished == 0 and (has("remarks") | not)' || fail "pieces: $(cat report.json)"
+expect 0 "$bin/meshdist" lamps.off lamps.ply --samples 20000 --fail-above 0.000001
+expect 0 "$pmesh" build lamps.off --bounded 1 -o lamps.pm --json report.json
+says report.json '.pieces_vanished == 0 and .refused.bound >= 8' || fail "vanished: $(cat report.json)"
+expect 0 "$pmesh" build lamps.off --keep-pieces -o lamps.pm --json report.json
+says report.json '.pieces_vanished == 0' || fail "vanished: $(cat report.json)"
+
 # Charts hold collapses back, unless texture coordinates are left out.
 awk '/^vt/ { next } /^f/ { n += 3; print "vt", n, 0; print "vt", n + 1, 0; print "vt", n, 1
   gsub("/[0-9]*", ""); print "f", $2 "/" n - 2, $3 "/" n - 1, $4 "/" n; next } 1' relief.obj >cut.obj

@@ -22,13 +22,15 @@ TEST(CollapseMap, ALoneTriangleHasAnHeir) {
     CollapseMap map(parts.mesh, parts.table, parts.wedges.positions, {}, Matching::nearest);
     DeviationBoxes boxes(2);
     const VectorBox had{Float4{0, 0, -3, 0}, Float4{0, 0, 2, 0}};
-    boxes.accept({{heir, had}});
-    ASSERT_TRUE(map.build(0, 1));
     DeviationBoxes::Change change;
+    change.faces = {{heir, had}};
+    boxes.accept(change);
+    change.clear();
+    ASSERT_TRUE(map.build(0, 1));
     boxes.add(map, change);
-    ASSERT_EQ(change.size(), 1u);
-    EXPECT_EQ(change[0].face, heir);
-    const VectorBox& box = change[0].box;
+    ASSERT_EQ(change.faces.size(), 1u);
+    EXPECT_EQ(change.faces[0].face, heir);
+    const VectorBox& box = change.faces[0].box;
     EXPECT_FLOAT_EQ(box.lo[2], -3);
     EXPECT_FLOAT_EQ(box.hi[2], 2);
     // u goes to the nearest point of the edge v-far, (0.8, 0.4)

@@ -68,6 +68,10 @@ void declare_build(Tool& tool, PmeshArguments& a) {
   build.add_flag(
       "--lock-borders", &a.build.lock_borders,
       "vertices on borders neither move nor vanish, so that neighbouring tiles still fit");
+  build.add_flag("--keep-pieces", &a.build.keep_pieces,
+                 "no piece (a part that neither edges nor vertices join to others) vanishes; "
+                 "otherwise one does when no collapse costs less than its radius, all but the "
+                 "largest");
   build.add_flag("--track-error", &a.build.track_error,
                  "keep a bound of the distance for every level, under any metric (aps, mapping "
                  "and --bounded have it)");

@@ -31,6 +31,7 @@ Json format_options(const BuildOptions& b) {
   if (b.lock_borders) out["lock_borders"] = true;
   if (b.ignore_materials) out["ignore_materials"] = true;
   if (b.ignore_colours) out["ignore_colours"] = true;
+  if (b.keep_pieces) out["keep_pieces"] = true;
   if (b.track_error) out["track_error"] = true;
   if (b.refuse_folds) out["refuse_folds"] = true;
   if (b.charts_apart_px > 0) out["charts_apart_px"] = b.charts_apart_px;
@@ -86,6 +87,11 @@ Remarks remark_on(const BuildResult& result) {
                 "vertices welded to others up to %.3g away (--weld 0 leaves them apart)",
                 result.welded_apart.gap);
   add_remark(&out, text, result.welded_apart.n_welded);
+  add_remark(
+      &out,
+      "pieces, which edges and vertices do not join to others, vanish whole where that costs "
+      "less than a collapse (--keep-pieces keeps them)",
+      result.counts.n_vanished);
   const PieceCounts& pieces = result.pieces;
   if (pieces.n_small >= kMostSmallPieces && 2 * pieces.n_in_small > result.record.faces.size())
     add_remark(&out,
@@ -133,6 +139,7 @@ int build(const Tool& tool, const PmeshArguments& a) {
                {"weld_tolerance", result.weld_tolerance},
                {"pieces", result.pieces.n},
                {"pieces_small", result.pieces.n_small},
+               {"pieces_vanished", counts.n_vanished},
                {"vertices_locked", result.n_locked},
                {"region_edges", result.n_region_edges},
                {"faces_dropped", result.n_dropped},

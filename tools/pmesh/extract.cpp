@@ -41,9 +41,13 @@ int extract(const Tool& tool, const PmeshArguments& a) {
   write_level(tool, out);
   const bool is_short = a.n_faces && out.triangles.size() > *a.n_faces;
   if (!is_short) tool.say(std::to_string(out.triangles.size()) + " faces");
+  Remarks remarks;
+  add_remark(&remarks, "pieces have vanished whole at this level", mesh.n_vanished());
+  tool.remark(a.pm, remarks);
   tool.report({{"faces", out.triangles.size()},
                {"vertices", out.positions.size()},
                {"cost", mesh.cost()},
+               {"pieces_vanished", mesh.n_vanished()},
                {"error_bound", mesh.error() < 0 ? Json() : Json(mesh.error())},
                {"timing", {{"level_s", level_s}}}});
   if (!is_short) return 0;

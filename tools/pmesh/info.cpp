@@ -21,6 +21,7 @@ int info(const Tool& tool, const PmeshArguments& a) {
               {"vertices", record.attributes.positions.size()},
               {"wedges", record.attributes.positions.size() + record.extra_sources.size()},
               {"splits", record.splits.size()},
+              {"pieces_vanished_base", count_vanishing_pieces(record)},
               {"placement", record.is_full_edge() ? "full" : "half"},
               {"texture_coordinates", !record.texcoords.empty()},
               {"error_bound_base", base_error(record)},
