@@ -65,6 +65,7 @@ CollapseCounts collapse_all(CollapseMesh& mesh, Metric& metric, Recorder& record
                             const Units& units, const BuildOptions& options,
                             const Progress& progress) {
   constexpr std::size_t kSlices = 100;
+  constexpr std::size_t kTail = 10;  // what is left may be looked at again: a tenth
   RecordedMetric<Metric> recorded{mesh,
                                   metric,
                                   recorder,
@@ -89,9 +90,7 @@ CollapseCounts collapse_all(CollapseMesh& mesh, Metric& metric, Recorder& record
     recorder.made(u, v, units.in_input(cost), error < 0 ? error : units.in_input(error) + units.gap,
                   trace);
   };
-  for (std::size_t slice = 1; slice <= kSlices; ++slice) {
-    const std::size_t target = start - span * slice / kSlices;
-    if (mesh.n_triangles() <= target && slice < kSlices) continue;
+  const auto run_to = [&](std::size_t target) {
     const CollapseCounts counts = loop.run({.target_triangles = target,
                                             .max_cost = units.in_metric(options.max_cost),
                                             .min_cosine = options.min_cosine,
@@ -104,8 +103,23 @@ CollapseCounts collapse_all(CollapseMesh& mesh, Metric& metric, Recorder& record
     for (std::size_t i = 0; i < counts.n_refused.size(); ++i)
       total.n_refused[i] += counts.n_refused[i];
     total.last_cost = std::max(total.last_cost, units.in_input(counts.last_cost));
+    return counts.n_collapses;
+  };
+  for (std::size_t slice = 1; slice <= kSlices; ++slice) {
+    const std::size_t target = start - span * slice / kSlices;
+    if (mesh.n_triangles() <= target && slice < kSlices) continue;
+    run_to(target);
     if (progress) progress(slice, kSlices);
     if (mesh.n_triangles() > target) break;  // nothing more can go
+  }
+  const bool is_bounded = std::isfinite(options.max_cost) || std::isfinite(options.error_bound);
+  if (is_bounded || mesh.n_triangles() > start / kTail) return total;
+  // What was refused once may be legal by now; then vertices stay where they are, which turns over
+  // fewer triangles.
+  for (const bool ends_only : {false, true}) {
+    recorded.ends_only = ends_only;
+    do loop.choose_all();
+    while (mesh.n_triangles() > start - span && run_to(start - span) > 0);
   }
   return total;
 }

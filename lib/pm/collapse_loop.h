@@ -82,6 +82,11 @@ class CollapseLoop {
         heap_(size32(mesh)),
         target_(mesh.n_vertices(), 0),
         stale_(mesh.n_vertices(), false) {
+    choose_all();
+  }
+
+  /// Looks at every vertex again, also those for which there was no legal target when they came up.
+  void choose_all() {
     for (std::uint32_t u = 0; u < target_.size(); ++u) choose(u);
   }
 

@@ -36,6 +36,7 @@ struct RecordedMetric {
   /// itself (along a border), anywhere.
   enum class Way { none, to_end, along, free };
   std::span<const std::uint32_t> live_faces = {};
+  bool ends_only = false;  ///< full-edge collapses go to v
   glm::vec3 last_position{0};
   Way last_way = Way::free;
 
@@ -71,6 +72,7 @@ struct RecordedMetric {
   bool is_locked(std::uint32_t v) const { return !locked.empty() && locked[v]; }
   /// Of full-edge collapses: where v is, or nowhere.
   bool must_stay(std::uint32_t v) const { return mesh.is_hub(v) || is_locked(v); }
+  bool goes_to_end(std::uint32_t v) const { return ends_only || must_stay(v); }
   void fetch(std::uint32_t v) const requires requires(Metric m) { m.fetch(v); }
   { metric.fetch(v); }
   float cost_at_least(std::uint32_t u, std::uint32_t v) requires requires(Metric m) {
@@ -79,9 +81,9 @@ struct RecordedMetric {
   { return metric.cost_at_least(u, v); }
   Way find_way(std::uint32_t u, std::uint32_t v) requires kHasPlacement {
     if (must_stay(u)) return Way::none;
-    if (!recorder.table().has_charts()) return must_stay(v) ? Way::to_end : Way::free;
+    if (!recorder.table().has_charts()) return goes_to_end(v) ? Way::to_end : Way::free;
     if (!recorder.match(mesh, u, v)) return Way::none;
-    if (must_stay(v) || !recorder.table().match_both(mesh, v)) return Way::to_end;
+    if (goes_to_end(v) || !recorder.table().match_both(mesh, v)) return Way::to_end;
     return n_charts() < 2 ? Way::free : Way::along;
   }
   /// Of the last match: charts that hold both ends. Of two-sided sheets one side's, unless the
