@@ -20,7 +20,7 @@ struct AttributeCostOptions {
 };
 
 /// Of a linear function of position for each of three channels: value(p, s) = sum over faces of
-/// weight * |colour of the face's plane at p - s|^2 [Hoppe 1999].
+/// weight * |colour of the face's plane at p - s|^2 [Hoppe99].
 struct ColourQuadric {
   Symmetric3 a{};
   glm::dvec3 b{0};

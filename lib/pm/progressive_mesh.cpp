@@ -19,36 +19,49 @@ UsedVertices take_all_vertices(std::size_t n) {
   return out;
 }
 
-// Normals by corner, weighted by angle, of the faces around that have the same wedge there and do
-// not turn away by more than 60 degrees: full-edge collapses join the wedges of a crease.
-std::vector<glm::vec3> compute_wedge_normals(const TriMesh& mesh, std::span<const Triangle> wedges,
-                                             std::size_t n_wedges) {
+// A corner as it is drawn.
+struct DrawnCorner {
+  std::uint32_t index = 0;
+  double angle = 0;
+  glm::dvec3 face_normal{0};  // unit
+  glm::vec3 normal{0};        // the input's, of its wedge
+};
+
+// Normals by corner, weighted by angle, of the faces around its vertex that had the same normal
+// there in the input, and do not turn away by more than 60 degrees: full-edge collapses join the
+// wedges of a crease. vertex_of, normal_of: of corners.
+template <typename VertexOf, typename NormalOf>
+std::vector<glm::vec3> compute_drawn_normals(const TriMesh& mesh, std::size_t n_vertices,
+                                             VertexOf&& vertex_of, NormalOf&& normal_of) {
   constexpr double kCreaseCosine = 0.5;
-  constexpr std::size_t kManyCorners = 256;  // of a wedge: all are averaged
-  struct Corner {
-    std::uint32_t index;
-    double angle;
-    glm::dvec3 normal;
-  };
-  const auto corners = fill_buckets<Corner>(n_wedges, [&](const auto& emit) {
-    for (std::uint32_t c = 0; c < 3 * wedges.size(); ++c) {
+  constexpr float kSameCosine = 0.999f;
+  constexpr std::size_t kManyCorners = 256;  // of a vertex: all are averaged
+  const std::size_t n = 3 * mesh.triangles.size();
+  const auto corners = fill_buckets<DrawnCorner>(n_vertices, [&](const auto& emit) {
+    for (std::uint32_t c = 0; c < n; ++c) {
       const Triangle& t = mesh.triangles[c / 3];
       const glm::dvec3 at(mesh.positions[t[c % 3]]), normal = area_normal(mesh, t);
       const glm::dvec3 a = glm::dvec3(mesh.positions[t[(c + 1) % 3]]) - at;
       const glm::dvec3 b = glm::dvec3(mesh.positions[t[(c + 2) % 3]]) - at;
       const double length = glm::length(normal);
-      emit(wedges[c / 3][c % 3], Corner{c, length > 0 ? std::atan2(length, glm::dot(a, b)) : 0,
-                                        length > 0 ? normal / length : glm::dvec3(0)});
+      DrawnCorner corner{c, 0, {}, normal_of(c)};
+      if (length > 0)
+        corner.angle = std::atan2(length, glm::dot(a, b)), corner.face_normal = normal / length;
+      emit(vertex_of(c), corner);
     }
   });
-  std::vector<glm::vec3> out(3 * wedges.size(), glm::vec3(0, 0, 1));
-  for (std::size_t w = 0; w < n_wedges; ++w) {
-    const auto around = corners.of(w);
-    for (const Corner& corner : around) {
+  std::vector<glm::vec3> out(n, glm::vec3(0, 0, 1));
+  for (std::size_t v = 0; v < n_vertices; ++v) {
+    const auto around = corners.of(v);
+    const auto are_smooth = [&](const DrawnCorner& a, const DrawnCorner& b) {
+      return around.size() > kManyCorners ||
+             (glm::dot(a.face_normal, b.face_normal) > kCreaseCosine &&
+              glm::dot(a.normal, b.normal) > kSameCosine);
+    };
+    for (const DrawnCorner& corner : around) {
       glm::dvec3 sum(0);
-      for (const Corner& other : around)
-        if (around.size() > kManyCorners || glm::dot(corner.normal, other.normal) > kCreaseCosine)
-          sum += other.angle * other.normal;
+      for (const DrawnCorner& other : around)
+        if (are_smooth(corner, other)) sum += other.angle * other.face_normal;
       const double length = glm::length(sum);
       if (length > 0) out[corner.index] = glm::vec3(sum / length);
     }
@@ -66,6 +79,8 @@ std::size_t count_whole_pieces(std::span<const VertexSplit> splits) {
 ProgressiveMesh::ProgressiveMesh(ProgressiveRecord record)
     : record_(std::move(record)), is_alive_(record_.faces.size(), true) {
   for (const std::uint32_t face : record_.born) is_alive_[face] = false;
+  for (std::uint32_t v = 0; v < record_.vertex_of.size(); ++v)
+    has_welded_ = has_welded_ || record_.vertex_of[v] != v;
   n_base_faces_ = n_faces_ = record_.faces.size() - record_.born.size();
 }
 
@@ -149,6 +164,33 @@ std::uint32_t ProgressiveMesh::source_of(std::uint32_t wedge) const {
   return wedge < n ? wedge : record_.extra_sources[wedge - n];
 }
 
+// Of a mesh that has all but them; wedges: of its triangles.
+void ProgressiveMesh::add_normals(const UsedVertices& used, std::span<const Triangle> wedges,
+                                  TriMesh& out) const {
+  const std::vector<glm::vec3>& of_vertices = record_.attributes.normals;
+  const std::vector<glm::vec3>& of_wedges = record_.wedge_normals;
+  const bool has_moved = record_.is_full_edge() && level_ < n_splits();
+  if (!has_moved) {
+    out.normals = used.pick(of_vertices);
+    if (!of_wedges.empty())
+      for (const Triangle& face : wedges)
+        for (const std::uint32_t w : face) out.corner_normals.push_back(of_wedges[w]);
+    return;
+  }
+  if (of_vertices.empty() && of_wedges.empty()) return;
+  if (of_wedges.empty() && !has_welded_) {
+    out.normals = make_vertex_normals(out);
+    return;
+  }
+  out.corner_normals = compute_drawn_normals(
+      out, record_.vertex_of.size(),
+      [&](std::uint32_t c) { return record_.vertex_of[source_of(wedges[c / 3][c % 3])]; },
+      [&](std::uint32_t c) {
+        const std::uint32_t w = wedges[c / 3][c % 3];
+        return of_wedges.empty() ? of_vertices[source_of(w)] : of_wedges[w];
+      });
+}
+
 TriMesh ProgressiveMesh::extract(std::vector<std::uint32_t>* source_vertex) const {
   const TriMesh& from = record_.attributes;
   const bool is_input = level_ == n_splits();
@@ -156,11 +198,11 @@ TriMesh ProgressiveMesh::extract(std::vector<std::uint32_t>* source_vertex) cons
   out.material_names = from.material_names;
   out.material_libraries = from.material_libraries;
   out.offset = from.offset;
-  std::vector<Triangle> wedges;  // where they have normals
+  std::vector<Triangle> wedges;
   for (std::size_t f = 0; f < record_.faces.size(); ++f) {
     if (!is_alive_[f]) continue;
     const Triangle& face = record_.faces[f];
-    if (!record_.wedge_normals.empty()) wedges.push_back(face);
+    wedges.push_back(face);
     out.triangles.push_back({source_of(face[0]), source_of(face[1]), source_of(face[2])});
     if (!record_.texcoords.empty())
       for (const std::uint32_t wedge : face) out.texcoords.push_back(record_.texcoords[wedge]);
@@ -172,16 +214,7 @@ TriMesh ProgressiveMesh::extract(std::vector<std::uint32_t>* source_vertex) cons
   for (const std::uint32_t v : used.source)
     out.positions.push_back(from.positions[is_input ? v : record_.vertex_of[v]]);
   out.colors = used.pick(from.colors);
-  const bool has_moved = record_.is_full_edge() && !is_input;
-  if (has_moved && !from.normals.empty())
-    out.normals = make_vertex_normals(out);
-  else
-    out.normals = used.pick(from.normals);
-  if (has_moved && !wedges.empty())
-    out.corner_normals = compute_wedge_normals(out, wedges, record_.wedge_normals.size());
-  else
-    for (const Triangle& face : wedges)
-      for (const std::uint32_t w : face) out.corner_normals.push_back(record_.wedge_normals[w]);
+  add_normals(used, wedges, out);
   if (source_vertex) *source_vertex = std::move(used.source);
   return out;
 }

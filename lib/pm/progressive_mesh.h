@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "mesh/mesh.h"
+#include "mesh/used_vertices.h"
 
 namespace viewcell {
 
@@ -104,15 +105,17 @@ class ProgressiveMesh {
   /// The mesh at this level: vertices and faces in the input's order, those of the input that are
   /// used (at the input: all). source_vertex: their numbers in the input, if wanted. Welded
   /// vertices are all where the first of them is, but at the input. Normals are the input's, by
-  /// vertex or corner; after full-edge collapses computed, over faces that share the input's.
+  /// vertex or corner; after full-edge collapses computed, by corner where creases may be.
   TriMesh extract(std::vector<std::uint32_t>* source_vertex = nullptr) const;
 
  private:
   std::uint32_t source_of(std::uint32_t wedge) const;
+  void add_normals(const UsedVertices& used, std::span<const Triangle> wedges, TriMesh& out) const;
   void swap_stash(const VertexSplit& split, std::size_t first_pair, bool is_split);
 
   ProgressiveRecord record_;
   std::vector<bool> is_alive_;  // by face
+  bool has_welded_ = false;     // vertices of the input
   std::size_t n_faces_ = 0, n_base_faces_ = 0, level_ = 0;
   std::size_t at_born_ = 0, at_moved_ = 0, at_pair_ = 0;  // of the next split
 };

@@ -237,6 +237,75 @@ head -4 colored-out.obj | grep -qx "mtllib /elsewhere/b.mtl" || fail "mtllib is 
 [ "$(grep '^v ' colored-out.obj | awk 'NF == 7' | wc -l)" -eq "$(grep -c '^v ' colored-out.obj)" ] || fail "no colours"
 grep -q '^usemtl m3$' colored-out.obj || fail "materials are lost"
 
+# A patch of another material, and one of another colour, keep their size, unless they are ignored.
+awk '/^f/ { print "usemtl", (int((NR - 579) / 2) % 16 < 8 ? "left" : "right") } 1' relief.obj >halves.obj
+awk '/^v / { print $0, ($2 < 8 ? "1 0 0" : "0 0 1"); next } 1' relief.obj >painted.obj
+awk '/^v/ { if ($1 == "v") print "v", $2, $3, 0; next } /^f/ { gsub("/[0-9]*", "") } 1' halves.obj >flat-halves.obj
+left_area() { # FILE: of flat faces of material left
+  awk '/^v / { x[++n] = $2; y[n] = $3 } /^usemtl/ { m = $2 } /^f/ && m == "left" {
+    split($2, a, "/"); split($3, b, "/"); split($4, c, "/"); i = a[1]; j = b[1]; k = c[1]
+    s += ((x[j] - x[i]) * (y[k] - y[i]) - (x[k] - x[i]) * (y[j] - y[i])) / 2 } END { print s + 0 }' "$1"
+}
+for metric in qem3 lt "mapping --placement full" "mapping --placement full --measure mean"; do
+  # shellcheck disable=SC2086  # options are words
+  expect 0 "$pmesh" build flat-halves.obj --metric $metric -o halves.pm --json report.json
+  says report.json '.region_edges == 16' || fail "$metric: $(cat report.json)"
+  expect 0 "$pmesh" extract halves.pm --faces 20 -o halves-20.obj
+  holds "$(left_area halves-20.obj) > 127 && $(left_area halves-20.obj) < 129" ||
+    fail "$metric: $(left_area halves-20.obj) of 128 is left"
+done
+expect 0 "$pmesh" build halves.obj -o with.pm
+expect 0 "$pmesh" build halves.obj --ignore materials -o without.pm --json report.json
+says report.json '.region_edges == 0' || fail "materials are not ignored: $(cat report.json)"
+differ with.pm without.pm || fail "--ignore materials changes nothing"
+expect 0 "$pmesh" build painted.obj -o with.pm
+expect 0 "$pmesh" build painted.obj --ignore colours -o without.pm
+differ with.pm without.pm || fail "--ignore colours changes nothing"
+expect 0 "$pmesh" build painted.obj --ignore materials,colours -o without.pm
+for word in "" normals materials, materials,x; do
+  fault 2 "is neither materials nor colours" "$pmesh" build painted.obj --ignore "$word" -o x.pm
+done
+
+# Normals by corner come through: six of a cube, at any level.
+awk 'BEGIN { n = 4
+  for (s = 0; s < 6; s++) { a = int(s / 2); for (y = 0; y <= n; y++) for (x = 0; x <= n; x++) {
+    p[a] = (s % 2) * n; p[(a + 1) % 3] = x; p[(a + 2) % 3] = y; print "v", p[0], p[1], p[2] }
+    q[0] = q[1] = q[2] = 0; q[a] = s % 2 ? 1 : -1; print "vn", q[0], q[1], q[2]
+    for (y = 0; y < n; y++) for (x = 0; x < n; x++) { i = s * (n + 1) * (n + 1) + y * (n + 1) + x + 1
+      c[0] = i; c[1] = i + 1; c[2] = i + n + 2; c[3] = i + n + 1
+      if (s % 2 == 0) { t = c[1]; c[1] = c[3]; c[3] = t }
+      print "f", c[0] "//" s + 1, c[1] "//" s + 1, c[2] "//" s + 1
+      print "f", c[0] "//" s + 1, c[2] "//" s + 1, c[3] "//" s + 1 } } }' >cube.obj
+for placement in half full; do
+  expect 0 "$pmesh" build cube.obj --placement $placement -o cube.pm
+  for faces in 192 60 12; do
+    expect 0 "$pmesh" extract cube.pm --faces $faces -o cube-out.obj
+    awk '/^vn/ { for (k = 2; k <= 4; k++) printf "%d ", int($k * 100 + 1000.5) - 1000; print "" }' cube-out.obj | sort -u >normals.txt
+    [ "$(wc -l <normals.txt)" -eq 6 ] || fail "$placement, $faces faces: $(cat normals.txt)"
+  done
+done
+
+# What is nearly at one place is welded, and said; lengths are shares of the box, too.
+awk '/^v / { x[++n] = $2; y[n] = $3; z[n] = $4; next } /^f/ { for (k = 2; k <= 4; k++) { split($k, c, "/"); i = c[1]
+  printf "v %.7f %.7f %.7f\n", x[i] + 4e-6 * sin(++m), y[i] + 4e-6 * sin(m * 1.7), z[i] }; print "f", m - 2, m - 1, m }' relief.obj >soup.obj
+expect 0 "$pmesh" build soup.obj -o soup.pm --json report.json
+says report.json '.vertices_welded_apart > 1000 and .pieces == 1' || fail "not welded: $(cat report.json)"
+grep -q "soup.obj: vertices welded to others up to .* away (--weld 0 leaves them apart)" "$log/err" || fail "$(cat "$log/err")"
+expect 0 "$pmesh" extract soup.pm --faces 150 -o soup.ply
+expect 0 "$bin/meshdist" soup.ply relief.obj --samples 20000 --fail-above 0.5
+expect 0 "$pmesh" build soup.obj --weld 0 -o soup.pm --json report.json
+says report.json '.vertices_welded_apart == 0 and .pieces > 1' || fail "welded: $(cat report.json)"
+expect 0 "$pmesh" build soup.obj --weld 0.001% -o soup.pm --json report.json
+says report.json '.pieces == 1' || fail "--weld 0.001%: $(cat report.json)"
+for length in -1 x 1%% "" nan; do fault 2 "--weld" "$pmesh" build soup.obj --weld "$length" -o x.pm; done
+
+# Tiles that are built one by one fit.
+expect 0 "$pmesh" build relief.obj --lock-borders -o locked.pm --json report.json
+says report.json '.vertices_locked == 64' || fail "locked: $(cat report.json)"
+expect 0 "$pmesh" extract locked.pm --faces 200 -o locked.obj
+awk '/^v / && ($2 == 0 || $2 == 16 || $3 == 0 || $3 == 16)' relief.obj | wc -l >rim.txt
+[ "$(awk '/^v / && ($2 == 0 || $2 == 16 || $3 == 0 || $3 == 16)' locked.obj | wc -l)" -eq "$(cat rim.txt)" ] || fail "the rim has moved"
+
 # Far from the origin: through build and extract, in every format that holds it.
 awk '/^v / { printf "v %.6f %.6f %.6f\n", 500000 + $2 / 8, 4649776 + $3 / 8, $4 / 8; next } 1' relief.obj >far.obj
 awk '/^v / { printf "v %.6f %.6f %.6f\n", $2 / 8, $3 / 8, $4 / 8; next } 1' relief.obj >near.obj
