@@ -25,7 +25,7 @@ set(VIEWCELL_ROOMS
 # time: a program that calls none of the former does not load its 260 libraries, 0.2 s of a start
 # (tests/cli/libraries.sh).
 set(VIEWCELL_NEEDS_OPENIMAGEIO "^#include [<\"](OpenImageIO/|image/(capture_file|deep_metrics|\
-exr_layout|header|index_map|io|library|memory_input|picture_size)\\.h|formats/texture(_file|_list|d_obj)\\.h)")
+exr_layout|header|index_map|io|jpeg|library|memory_input|picture_size)\\.h|formats/texture(_file|_list|d_obj)\\.h)")
 function(viewcell_group_sources TARGET)
   set(n 0)
   foreach(source ${ARGN})

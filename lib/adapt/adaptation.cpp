@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/gtx/exterior_product.hpp>
+#include <map>
 #include <tuple>
 #include <utility>
 
@@ -24,7 +25,17 @@ struct Finest {
   std::size_t n_charts = 0;
 };
 
-Finest describe_finest(const ProgressiveMesh& mesh) {
+// Faces of one chart and of different groups get charts of their own.
+void split_charts(std::span<const std::int32_t> groups, Finest& finest) {
+  std::map<std::pair<std::uint32_t, std::int32_t>, std::uint32_t> numbers;
+  for (std::size_t f = 0; f < groups.size(); ++f) {
+    const auto next = static_cast<std::uint32_t>(numbers.size());
+    finest.charts[f] = numbers.try_emplace({finest.charts[f], groups[f]}, next).first->second;
+  }
+  finest.n_charts = numbers.size();
+}
+
+Finest describe_finest(const ProgressiveMesh& mesh, std::span<const std::int32_t> groups) {
   const ProgressiveRecord& record = mesh.record();
   Finest out;
   out.wedges.positions.assign(record.attributes.positions.begin(),
@@ -39,6 +50,7 @@ Finest describe_finest(const ProgressiveMesh& mesh) {
   Charts charts = find_joined_charts(out.wedges);
   out.n_charts = charts.size();
   out.charts = std::move(charts.of);
+  if (!groups.empty()) split_charts(groups, out);
   return out;
 }
 
@@ -52,19 +64,12 @@ int turn_of(const glm::vec2& a, const glm::vec2& b, const glm::vec2& c) {
   return std::abs(area2) <= most ? 0 : area2 > 0 ? 1 : -1;
 }
 
-void add_face(const ProgressiveRecord& record, const AdaptationLog& log, std::size_t face,
-              LevelCharts& out) {
-  const Triangle& t = record.faces[face];
-  out.faces.push_back({record.texcoords[t[0]], record.texcoords[t[1]], record.texcoords[t[2]]});
-  out.charts.push_back(log.charts[face]);
-}
-
 // Maps one collapse after another and appends its overlay cells to the log.
 class LogBuilder {
  public:
-  explicit LogBuilder(const ProgressiveRecord& record)
+  LogBuilder(const ProgressiveRecord& record, std::span<const std::int32_t> groups)
       : coarser_(make_finest(record)),
-        finest_(describe_finest(coarser_)),
+        finest_(describe_finest(coarser_, groups)),
         is_adapted_(finest_.wedges.faces.size(), false),
         mesh_(finest_.wedges.positions, finest_.triangles, FaceCopies{}),
         table_(finest_.wedges),
@@ -292,14 +297,16 @@ bool LogBuilder::add_triangle(const AdaptationTriangle& triangle, int turn) {
   return true;
 }
 
-// Another face has the edge opposite to u, with the same texture coordinates.
+// Another face of the chart has the edge opposite to u, with the same texture coordinates.
 bool LogBuilder::has_neighbour(std::uint32_t face, std::uint32_t u) const {
   std::uint32_t k = 0;
   while (mesh_.vertex_at(3 * face + k) != u) ++k;
   const std::uint32_t a = 3 * face + (k + 1) % 3, b = 3 * face + (k + 2) % 3;
   bool found = false;
   mesh_.for_each_corner(mesh_.vertex_at(a), [&](std::uint32_t c) {
-    if (c / 3 == face || texcoord_at(c) != texcoord_at(a)) return;
+    if (c / 3 == face || finest_.charts[c / 3] != finest_.charts[face] ||
+        texcoord_at(c) != texcoord_at(a))
+      return;
     for (std::uint32_t j = 1; j < 3; ++j) {
       const std::uint32_t other = 3 * (c / 3) + (c + j) % 3;
       found = found || (mesh_.vertex_at(other) == mesh_.vertex_at(b) &&
@@ -350,22 +357,11 @@ bool is_within_reach(const AdaptationPoint& point) {
          is_near(point.after.y);
 }
 
-LevelCharts make_level_charts(const ProgressiveMesh& mesh, const AdaptationLog& log) {
-  LevelCharts out;
-  for (std::size_t f = 0; f < mesh.record().faces.size(); ++f)
-    if (mesh.has_face(f)) add_face(mesh.record(), log, f, out);
-  return out;
-}
-
-LevelCharts make_owner_charts(const ProgressiveMesh& mesh, const AdaptationLog& log) {
-  LevelCharts out = make_level_charts(mesh, log);
-  mesh.for_each_vanished_face([&](std::size_t f) { add_face(mesh.record(), log, f, out); });
-  return out;
-}
-
-AdaptationLog make_adaptation_log(const ProgressiveRecord& record, const Progress& progress) {
+AdaptationLog make_adaptation_log(const ProgressiveRecord& record, const Progress& progress,
+                                  std::span<const std::int32_t> groups) {
   VIEWCELL_CHECK(!record.texcoords.empty());
-  LogBuilder builder(record);
+  VIEWCELL_CHECK(groups.empty() || groups.size() == record.faces.size(), groups.size());
+  LogBuilder builder(record, groups);
   for (std::size_t i = record.splits.size(); i-- > 0;) {
     builder.collapse();
     if (progress && i % 1024 == 0) progress(record.splits.size() - i, record.splits.size());

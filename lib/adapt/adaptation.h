@@ -52,7 +52,8 @@ struct AdaptationLog {
   std::vector<AdaptationTriangle> triangles;
   std::vector<std::uint32_t> first_point, first_triangle;  ///< of each step; one more at the end
   std::size_t steps_per_collapse = 1;
-  std::vector<std::uint32_t> charts;  ///< of the record's faces, see find_joined_charts()
+  /// Of the record's faces, see find_joined_charts(); kNoChart: of those that were not kept.
+  std::vector<std::uint32_t> charts;
   std::size_t n_charts = 0;
   std::size_t n_folded = 0;  ///< steps that turn a face over in the texture
   /// Steps that have no overlay; steps of a vertex where a seam ends within a chart have none.
@@ -74,6 +75,7 @@ struct LevelCharts {
   std::vector<std::array<glm::vec2, 3>> faces;
   std::vector<std::uint32_t> charts;  ///< of the faces
 };
+/// Those with a chart alone.
 LevelCharts make_level_charts(const ProgressiveMesh& mesh, const AdaptationLog& log);
 /// And those of pieces that have vanished, as they were then: their texels wait for them.
 LevelCharts make_owner_charts(const ProgressiveMesh& mesh, const AdaptationLog& log);
@@ -81,7 +83,13 @@ LevelCharts make_owner_charts(const ProgressiveMesh& mesh, const AdaptationLog& 
 /// Rebuilds the overlay cells of every collapse, points matched by nearness as in the mapping
 /// metric. The record must have texture coordinates and be sound (see check_record). Throws
 /// InputError for a split that does not keep to texture charts. About 3 us a step.
-/// Follows: [Chen06 3.2.2].
-AdaptationLog make_adaptation_log(const ProgressiveRecord& record, const Progress& progress = {});
+/// groups: of the record's faces, or empty; faces of different groups are in different charts, for
+/// keep_faces(). Follows: [Chen06 3.2.2].
+AdaptationLog make_adaptation_log(const ProgressiveRecord& record, const Progress& progress = {},
+                                  std::span<const std::int32_t> groups = {});
+
+/// What the collapses do to the texture of some of the faces: those of one picture, where the
+/// others have another. is_kept: of the record's faces, all of a chart or none.
+AdaptationLog keep_faces(const AdaptationLog& log, const std::vector<bool>& is_kept);
 
 }  // namespace viewcell

@@ -248,25 +248,28 @@ NormalSource parse_normal_source(const std::string& name) {
 }
 
 MeshRenderer::MeshRenderer(const Gl& gl, const TriMesh& mesh, const MeshFrame& frame,
-                           const ImageRgba8* texture, const MeshStyle& style,
+                           const MeshTextures& textures, const MeshStyle& style,
                            const IndexMap* index_map, const ImageRgba8* normal_map)
     : gl_(gl), style_(style), array_(gl) {
   VIEWCELL_CHECK(style.size_px > 0 && style.samples > 0 &&
                      style.size_px <= kMostSamplesPerSide / style.samples,
                  style.size_px, style.samples);
-  VIEWCELL_CHECK(!(texture || normal_map) || mesh.texcoords.size() == 3 * mesh.triangles.size(),
+  const bool has_texture = !textures.empty();
+  VIEWCELL_CHECK(!(has_texture || normal_map) || mesh.texcoords.size() == 3 * mesh.triangles.size(),
                  mesh.texcoords.size());
-  VIEWCELL_CHECK(texture || normal_map || !index_map, "an indexing map without a texture");
-  const Surface surface{texture != nullptr, normal_map && style.lit, index_map != nullptr};
+  VIEWCELL_CHECK(has_texture || normal_map || !index_map, "an indexing map without a texture");
+  const Surface surface{has_texture, normal_map && style.lit, index_map != nullptr};
   target_ = GlFramebuffer(gl, style.size_px * style.samples, style.size_px * style.samples);
   program_ = GlProgram(gl, "mesh", kVertexSource, fragment_source(style, surface));
   gl.ProgramUniform1f(program_.id(), program_.uniform("half_width"),
                       0.5f * static_cast<float>(style.samples));
-  if (texture) texture_ = upload(gl, *texture, GL_SRGB8_ALPHA8);
+  textures.for_each(mesh.triangles.size(), [&](const ImageRgba8& texture, std::size_t n) {
+    runs_.push_back({upload(gl, texture, GL_SRGB8_ALPHA8), static_cast<GLsizei>(3 * n)});
+  });
   if (index_map) index_map_ = upload(gl, *index_map);
-  const std::vector<MeshVertex> vertices = make_vertices(mesh, frame, texture != nullptr, style);
+  const std::vector<MeshVertex> vertices = make_vertices(mesh, frame, has_texture, style);
   vertices_ = make_buffer(gl, vertices);
-  n_vertices_ = static_cast<GLsizei>(vertices.size());
+  if (!has_texture) runs_.push_back({GlTexture(), static_cast<GLsizei>(vertices.size())});
   gl.VertexArrayVertexBuffer(array_.id(), 0, vertices_.id(), 0, sizeof(MeshVertex));
   array_.set_attribute(0, 3, GL_FLOAT, GL_FALSE, offsetof(MeshVertex, position));
   array_.set_attribute(1, 3, GL_FLOAT, GL_FALSE, offsetof(MeshVertex, normal));
@@ -294,13 +297,17 @@ ImageRgba8 MeshRenderer::draw(const Camera& view) const {
   const glm::vec3 sky = srgb_encode(style_.lighting.sky_color);
   target_.bind();
   target_.clear({sky.x, sky.y, sky.z, 0});
-  gl_.BindTextureUnit(0, texture_.id());
   gl_.BindTextureUnit(1, index_map_.id());
   gl_.BindTextureUnit(2, normal_map_.id());
   program_.use();
   array_.bind();
   gl_.Disable(GL_CULL_FACE);
-  gl_.DrawArrays(GL_TRIANGLES, 0, n_vertices_);
+  GLint first = 0;
+  for (const Run& run : runs_) {
+    gl_.BindTextureUnit(0, run.texture.id());
+    gl_.DrawArrays(GL_TRIANGLES, first, run.n_vertices);
+    first += run.n_vertices;
+  }
   gl_.Enable(GL_CULL_FACE);
   ImageRgba8 picture = shrink_to_width(target_.read_rgba8(), style_.size_px);
   for (Rgba8& p : picture.pixels) p[3] = p[3] > 0 ? 255 : 0;

@@ -51,11 +51,6 @@ void cut_faces(const FaceList& faces, TriMesh& mesh, TriangleSources* sources, R
   add_remark(remarks, "polygons that cross themselves or have no area, cut into fans", n_crossed);
 }
 
-std::span<const std::uint32_t> corners_of(const TriMesh& mesh) {
-  if (mesh.triangles.empty()) return {};
-  return {mesh.triangles[0].data(), 3 * mesh.triangles.size()};
-}
-
 void place_vertices(std::span<const glm::dvec3> places, std::span<const std::uint32_t> corners,
                     TriMesh& mesh, Remarks* remarks, const std::optional<glm::dvec3>& stated) {
   const Box box = box_of(corners, places.size(), [&](std::size_t v) { return places[v]; });

@@ -31,8 +31,11 @@ struct TriangleSources {
 /// are left out. Vertices must be in range. sources: if wanted.
 void cut_faces(const FaceList& faces, TriMesh& mesh, TriangleSources* sources, Remarks* remarks);
 
-/// The corners of all triangles, one after another.
-std::span<const std::uint32_t> corners_of(const TriMesh& mesh);
+/// The vertices of a mesh's triangles, three each.
+inline std::span<const std::uint32_t> corners_of(const TriMesh& mesh) {
+  if (mesh.triangles.empty()) return {};
+  return {mesh.triangles[0].data(), 3 * mesh.triangles.size()};
+}
 
 /// Sets positions and offset (mesh/offset.h) to vertices at `places`, of which those count that
 /// corners name; where none is named, all. stated: an offset that the file names, taken if it

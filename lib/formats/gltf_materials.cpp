@@ -102,6 +102,11 @@ bool is_repeated(const JsonCursor& root, std::int64_t texture) {
   return true;
 }
 
+bool has_readable_image(const JsonCursor& root, std::int64_t id) {
+  const JsonCursor texture = texture_at(root, id);
+  return texture.has("source") || has_extension(texture, "EXT_texture_webp");
+}
+
 std::int64_t image_of_texture(const JsonCursor& root, std::int64_t id) {
   const JsonCursor texture = texture_at(root, id);
   if (texture.has("source")) return gltf_index(texture.at("source"));
@@ -114,14 +119,27 @@ std::int64_t image_of_texture(const JsonCursor& root, std::int64_t id) {
   texture.fail("has no picture that is read: PNG, JPEG or WebP");
 }
 
-glm::vec3 base_color_factor(const JsonCursor& material) {
+std::set<std::int64_t> used_materials(const JsonCursor& root) {
+  std::set<std::int64_t> used;
+  if (!root.has("meshes")) return used;
+  const JsonCursor meshes = root.at("meshes");
+  for (std::size_t m = 0; m < meshes.size(); ++m) {
+    const JsonCursor primitives = meshes.at(m).at("primitives");
+    for (std::size_t p = 0; p < primitives.size(); ++p)
+      if (const std::int64_t id = optional_gltf_index(primitives.at(p), "material"); id >= 0)
+        used.insert(id);
+  }
+  return used;
+}
+
+glm::dvec4 base_color_factor(const JsonCursor& material) {
   const auto pbr = child(material, "pbrMetallicRoughness");
   auto factor = child(pbr, "baseColorFactor");
   if (!factor && has_extension(material, kOldMaterial))
     factor = child(extension_of(material, kOldMaterial), "diffuseFactor");
-  if (!factor) return glm::vec3(1);
+  if (!factor) return glm::dvec4(1);
   const std::vector<double> c = factor->numbers(4, 0, 1);
-  return {c[0], c[1], c[2]};
+  return {c[0], c[1], c[2], c[3]};
 }
 
 std::vector<std::string> name_materials(const JsonCursor& root) {

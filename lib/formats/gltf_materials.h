@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -52,9 +53,14 @@ bool is_repeated(const JsonCursor& root, std::int64_t texture);
 /// The number of the picture behind a texture. Throws InputError, with the extension's name, for
 /// one that is there in a format only that is not read.
 std::int64_t image_of_texture(const JsonCursor& root, std::int64_t texture);
+/// Whether image_of_texture finds one.
+bool has_readable_image(const JsonCursor& root, std::int64_t texture);
 
-/// Linear; what the material's colour is multiplied by.
-glm::vec3 base_color_factor(const JsonCursor& material);
+/// The materials that faces have, each once, in order.
+std::set<std::int64_t> used_materials(const JsonCursor& root);
+
+/// Linear, with alpha; what the material's colour is multiplied by.
+glm::dvec4 base_color_factor(const JsonCursor& material);
 
 /// A name for each material of the file, all different: its own, or else its place.
 std::vector<std::string> name_materials(const JsonCursor& root);

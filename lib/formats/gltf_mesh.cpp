@@ -40,7 +40,7 @@ struct Look {
 Look look_of(const GltfFile& gltf, const JsonCursor& primitive) {
   const std::optional<JsonCursor> material = material_at(gltf, primitive);
   if (!material) return {};
-  return {leading_texture(*material), base_color_factor(*material)};
+  return {leading_texture(*material), glm::vec3(base_color_factor(*material))};
 }
 
 // Primitives with the same key have the same vertices. Exporters let many draw from one long list.

@@ -1,13 +1,17 @@
 #include "formats/texture_file.h"
 
 #include <algorithm>
+#include <cstdint>
+#include <cstring>
 #include <set>
 #include <vector>
 
 #include "base/error.h"
 #include "base/file.h"
 #include "formats/gltf_materials.h"
+#include "formats/model_pictures.h"
 #include "image/io.h"
+#include "image/jpeg.h"
 
 namespace viewcell {
 namespace {
@@ -39,20 +43,6 @@ GltfSlot slot_of(const std::string& name) {
   throw InputError(name, "", "is no texture's name: after # stands one of " + known);
 }
 
-// The materials that faces have, each once, in order.
-std::set<std::int64_t> used_materials(const JsonCursor& root) {
-  std::set<std::int64_t> used;
-  if (!root.has("meshes")) return used;
-  const JsonCursor meshes = root.at("meshes");
-  for (std::size_t m = 0; m < meshes.size(); ++m) {
-    const JsonCursor primitives = meshes.at(m).at("primitives");
-    for (std::size_t p = 0; p < primitives.size(); ++p)
-      if (primitives.at(p).has("material"))
-        used.insert(gltf_index(primitives.at(p).at("material")));
-  }
-  return used;
-}
-
 // The picture of a material's slot; -1 when it has none.
 std::int64_t image_of_material(const JsonCursor& root, std::int64_t id, GltfSlot slot) {
   const JsonCursor material = root.at("materials").at(static_cast<std::size_t>(id));
@@ -65,8 +55,22 @@ std::int64_t image_of_material(const JsonCursor& root, std::int64_t id, GltfSlot
   return image_of_texture(root, use->texture);
 }
 
+// The one picture of all its materials.
+ImageRgba8 decode_obj_texture(std::string_view bytes, const fs::path& file,
+                              const ReadImageOptions& options, int* lossy_quality) {
+  const MaterialPictures model = read_obj_pictures(bytes, file);
+  for (const Remark& remark : model.remarks) add_remark(options.remarks, remark.what, remark.count);
+  const std::size_t n = count_colors(model);
+  if (n != 1)
+    throw InputError(file.string(), "",
+                     n == 0 ? "none of its materials has a picture (map_Kd)"
+                            : "its materials have " + std::to_string(n) +
+                                  " different pictures (map_Kd); one is drawn at a time");
+  return decode_texture(model.pictures[0], options, lossy_quality);
+}
+
 ImageRgba8 decode_gltf_texture(std::string_view bytes, const fs::path& file, GltfSlot slot,
-                               const ReadImageOptions& options) {
+                               const ReadImageOptions& options, int* lossy_quality) {
   const GltfFile gltf = parse_gltf_file(bytes, file);
   std::set<std::int64_t> images;
   for (const std::int64_t material : used_materials(gltf.root()))
@@ -79,8 +83,31 @@ ImageRgba8 decode_gltf_texture(std::string_view bytes, const fs::path& file, Glt
                      "have " + std::to_string(images.size()) + " different pictures " + words +
                          "; one is drawn at a time");
   const std::int64_t image = *images.begin();
-  return decode_image_rgba8(read_image_bytes(gltf, image),
-                            file.string() + ": images[" + std::to_string(image) + "]", options);
+  return decode_texture(
+      {read_image_bytes(gltf, image), file.string() + ": images[" + std::to_string(image) + "]"},
+      options, lossy_quality);
+}
+
+// WebP: the chunk of its picture is VP8L where nothing is lost. It stands first, or, in an extended
+// file (VP8X), behind others.
+bool is_lossy_webp(std::string_view bytes) {
+  if (!bytes.starts_with("RIFF") || bytes.size() < 20 || bytes.substr(8, 4) != "WEBP") return false;
+  for (std::size_t at = 12; at + 8 <= bytes.size();) {
+    const std::string_view name = bytes.substr(at, 4);
+    if (name == "VP8 " || name == "VP8L") return name == "VP8 ";
+    std::uint32_t n_bytes = 0;
+    std::memcpy(&n_bytes, bytes.data() + at + 4, sizeof n_bytes);
+    at += 8 + std::size_t{n_bytes} + n_bytes % 2;
+  }
+  return false;
+}
+
+// 0: nothing was lost when these bytes were stored.
+int measure_lossy_quality(std::string_view bytes) {
+  constexpr int kUsual = 90;  // where the file does not say
+  if (!bytes.starts_with("\xff\xd8\xff")) return is_lossy_webp(bytes) ? kUsual : 0;
+  const int measured = measure_jpeg_quality(bytes);
+  return measured > 0 ? measured : kUsual;
 }
 
 }  // namespace
@@ -89,15 +116,24 @@ fs::path texture_file(const std::string& name) {
   return name.substr(0, find_slot(name));
 }
 
-ImageRgba8 read_texture(const std::string& name, std::string* hash,
-                        const ReadImageOptions& options) {
+ImageRgba8 decode_texture(const ModelPicture& picture, const ReadImageOptions& options,
+                          int* lossy_quality) {
+  ImageRgba8 image = decode_image_rgba8(picture.bytes, picture.name, options);
+  if (lossy_quality != nullptr)
+    *lossy_quality = is_opaque(image) ? measure_lossy_quality(picture.bytes) : 0;
+  return image;
+}
+
+ImageRgba8 read_texture(const std::string& name, std::string* hash, const ReadImageOptions& options,
+                        int* lossy_quality) {
   const fs::path file = texture_file(name);
   const GltfSlot slot = slot_of(name);
-  const std::string bytes = read_file(file);
+  std::string bytes = read_file(file);
   if (hash != nullptr) *hash = hash_hex(bytes);
   if (bytes.starts_with("glTF") || ends_as_gltf(file.string()))
-    return decode_gltf_texture(bytes, file, slot, options);
-  return decode_image_rgba8(bytes, file.string(), options);
+    return decode_gltf_texture(bytes, file, slot, options, lossy_quality);
+  if (has_material_pictures(file)) return decode_obj_texture(bytes, file, options, lossy_quality);
+  return decode_texture({std::move(bytes), file.string()}, options, lossy_quality);
 }
 
 }  // namespace viewcell

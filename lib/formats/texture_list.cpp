@@ -7,19 +7,14 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "formats/gltf_buffers.h"
+#include "formats/model_pictures.h"
+#include "formats/mtl.h"
 #include "image/picture_size.h"
 
 namespace viewcell {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string lower_ending_of(const fs::path& file) {
-  std::string ending = file.extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return ending;
-}
 
 // Calls get(), which gives a picture's bytes, and sets the size, or the fault.
 template <typename GetBytes>
@@ -49,57 +44,23 @@ void add_file(const fs::path& mesh_file, const std::string& name, const std::str
 
 // --- OBJ ---
 
-std::vector<std::string> words_of_line(const std::string& line) {
-  std::istringstream stream(line);
-  std::vector<std::string> words;
-  for (std::string word; stream >> word;) words.push_back(word);
-  return words;
-}
-
-// What stands behind the first word, and behind options such as "-s 1 1 1" of it.
-std::string file_of_map(const std::vector<std::string>& words) {
-  std::size_t i = 1;
-  while (i < words.size() && words[i].starts_with('-')) {
-    ++i;
-    const auto is_value = [&] {
-      return i + 1 < words.size() &&
-             (words[i] == "on" || words[i] == "off" || words[i].size() == 1 ||
-              words[i].find_first_not_of("0123456789.+-eE") == std::string::npos);
-    };
-    while (is_value()) ++i;
-  }
-  std::string name;  // names may hold blanks
-  for (; i < words.size(); ++i) name += (name.empty() ? "" : " ") + words[i];
-  return name;
-}
-
 void list_library(const fs::path& obj, const std::string& name,
                   std::vector<ListedTexture>& textures) {
-  std::istringstream library;
+  std::string library;
   try {
-    library.str(read_file(resolve_inside(obj, "mtllib", name)));
+    library = read_file(resolve_inside(obj, "mtllib", name));
   } catch (const InputError&) {
     return;  // absent, as for read_mesh
   }
-  std::string material;
-  for (std::string line; std::getline(library, line);) {
-    const std::vector<std::string> words = words_of_line(line);
-    if (words.size() < 2) continue;
-    if (words[0] == "newmtl") material = words[1];
-    const bool is_map = words[0].starts_with("map_") || words[0] == "bump" || words[0] == "norm" ||
-                        words[0] == "disp" || words[0] == "decal";
-    if (is_map) add_file(obj, file_of_map(words), words[0] + " of '" + material + "'", textures);
-  }
+  for (const MtlMaterial& material : parse_mtl(library))
+    for (const MtlMap& map : material.maps)
+      add_file(obj, map.file, map.keyword + " of '" + material.name + "'", textures);
 }
 
 std::vector<ListedTexture> list_of_obj(const fs::path& obj) {
   std::vector<ListedTexture> textures;
-  std::istringstream stream(read_file(obj));
-  for (std::string line; std::getline(stream, line);) {
-    if (!line.starts_with("mtllib")) continue;
-    const std::vector<std::string> words = words_of_line(line);
-    for (std::size_t i = 1; i < words.size(); ++i) list_library(obj, words[i], textures);
-  }
+  for (const std::string& line : find_mtl_names(read_file(obj)).libraries)
+    for (const std::string& name : split_words(line)) list_library(obj, name, textures);
   return textures;
 }
 

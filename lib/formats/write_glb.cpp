@@ -1,5 +1,7 @@
 #include "formats/write_glb.h"
 
+#include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstring>
@@ -12,6 +14,7 @@
 #include "base/json.h"
 #include "base/version.h"
 #include "formats/split_normals.h"
+#include "mesh/subset.h"
 #include "mesh/tangents.h"
 
 // Source: the glTF 2.0 specification (Khronos), 4.4 (GLB) and 3.6 (accessors).
@@ -40,8 +43,8 @@ std::uint64_t bits_of(const glm::vec2& uv) {
          std::bit_cast<std::uint32_t>(uv.y);
 }
 
-// tangents: of corners, or empty. Corners of a vertex with the same texture coordinates on the same
-// side have the same one.
+// tangents: of corners, or empty. Corners of a vertex with the same texture coordinates, on the
+// same side and of the same material, have the same one.
 DrawnVertices split_vertices(const TriMesh& mesh, const std::vector<glm::vec4>& tangents) {
   const auto n = static_cast<std::uint32_t>(mesh.positions.size());
   DrawnVertices out;
@@ -49,27 +52,28 @@ DrawnVertices split_vertices(const TriMesh& mesh, const std::vector<glm::vec4>& 
   std::vector<bool> is_taken(n, false);
   if (!mesh.texcoords.empty()) out.texcoords.resize(n, glm::vec2(0));
   if (!tangents.empty()) out.tangents.resize(n, glm::vec4(1, 0, 0, 1));
-  std::map<std::tuple<std::uint32_t, std::uint64_t, float>, std::uint32_t> copies;
+  std::map<std::tuple<std::uint32_t, std::uint64_t, std::array<float, 4>>, std::uint32_t> copies;
   for (std::size_t corner = 0; corner < 3 * mesh.triangles.size(); ++corner) {
     const std::uint32_t v = mesh.triangles[corner / 3][corner % 3];
     out.indices.push_back(v);
     if (mesh.texcoords.empty()) continue;
     const glm::vec2& uv = mesh.texcoords[corner];
-    const float side = tangents.empty() ? 0 : tangents[corner].w;
+    const glm::vec4 tangent = tangents.empty() ? glm::vec4(0) : tangents[corner];
     if (!is_taken[v]) {
       out.texcoords[v] = uv;
-      if (!tangents.empty()) out.tangents[v] = tangents[corner];
+      if (!tangents.empty()) out.tangents[v] = tangent;
     }
     is_taken[v] = true;
-    const bool is_same_side = tangents.empty() || out.tangents[v].w == side;
-    if (bits_of(out.texcoords[v]) == bits_of(uv) && is_same_side) continue;
+    const bool has_same = tangents.empty() || out.tangents[v] == tangent;
+    if (bits_of(out.texcoords[v]) == bits_of(uv) && has_same) continue;
     const auto next = static_cast<std::uint32_t>(out.source.size());
-    const auto [copy, is_new] = copies.try_emplace({v, bits_of(uv), side}, next);
+    const auto [copy, is_new] =
+        copies.try_emplace({v, bits_of(uv), {tangent.x, tangent.y, tangent.z, tangent.w}}, next);
     out.indices.back() = copy->second;
     if (!is_new) continue;
     out.source.push_back(v);
     out.texcoords.push_back(uv);
-    if (!tangents.empty()) out.tangents.push_back(tangents[corner]);
+    if (!tangents.empty()) out.tangents.push_back(tangent);
   }
   return out;
 }
@@ -80,6 +84,7 @@ DrawnVertices split_vertices(const TriMesh& mesh, const std::vector<glm::vec4>& 
 struct Content {
   std::string bytes;
   Json views = Json::array(), accessors = Json::array();
+  std::map<std::string, std::size_t> textures;  // by their pictures' bytes
 };
 
 // target 0: none. Gives the view's number.
@@ -122,20 +127,60 @@ std::size_t add_positions(Content& content, const std::vector<glm::vec3>& positi
 }
 
 // 65535 itself would be the mark that restarts a strip.
-std::size_t add_indices(Content& content, const DrawnVertices& split) {
-  if (split.source.size() > 65535)
-    return add_accessor(content, split.indices, kGltfUnsignedInt, "SCALAR", kIndexData);
-  const std::vector<std::uint16_t> small(split.indices.begin(), split.indices.end());
+std::size_t add_indices(Content& content, const std::vector<std::uint32_t>& indices,
+                        std::size_t n_vertices) {
+  if (n_vertices > 65535)
+    return add_accessor(content, indices, kGltfUnsignedInt, "SCALAR", kIndexData);
+  const std::vector<std::uint16_t> small(indices.begin(), indices.end());
   return add_accessor(content, small, kGltfUnsignedShort, "SCALAR", kIndexData);
 }
 
-std::vector<glm::vec4> tangents_for(const TriMesh& mesh, const GlbOptions& options) {
-  if (options.normal_map.empty() || mesh.normals.empty()) return {};
-  return make_corner_tangents(mesh, make_corner_normals(mesh));
+// What is given, or else the one material that base_color and normal_map make.
+std::vector<GlbMaterial> materials_of(const GlbOptions& options) {
+  if (!options.materials.empty()) return options.materials;
+  return {{.name = "", .base_color = options.base_color, .normal_map = options.normal_map}};
 }
 
-Json add_primitive(Content& content, const TriMesh& mesh, const GlbOptions& options) {
-  const DrawnVertices split = split_vertices(mesh, tangents_for(mesh, options));
+bool has_picture(const std::vector<GlbMaterial>& materials, std::string GlbMaterial::*picture) {
+  return std::any_of(materials.begin(), materials.end(),
+                     [&](const GlbMaterial& m) { return !(m.*picture).empty(); });
+}
+
+// A normal map is relative to the tangents of the triangles that show it.
+std::vector<glm::vec4> tangents_for(const TriMesh& mesh,
+                                    const std::vector<GlbMaterial>& materials) {
+  if (!has_picture(materials, &GlbMaterial::normal_map) || mesh.normals.empty()) return {};
+  if (materials.size() == 1 || mesh.materials.empty())
+    return make_corner_tangents(mesh, make_corner_normals(mesh));
+  std::vector<glm::vec4> out(3 * mesh.triangles.size(), glm::vec4(1, 0, 0, 1));
+  for (std::size_t m = 0; m < materials.size(); ++m) {
+    std::vector<bool> is_kept;
+    for (const std::int32_t material : mesh.materials)
+      is_kept.push_back(static_cast<std::size_t>(material) == m);
+    const TriMesh part = keep_triangles(mesh, is_kept);
+    const std::vector<glm::vec4> tangents =
+        part.triangles.empty() ? std::vector<glm::vec4>()
+                               : make_corner_tangents(part, make_corner_normals(part));
+    for (std::size_t c = 0, from = 0; c < out.size(); ++c)
+      if (is_kept[c / 3]) out[c] = tangents[from++];
+  }
+  return out;
+}
+
+// Those of the triangles of each material; all are the first one's where the mesh has none.
+std::vector<std::vector<std::uint32_t>> indices_by_material(const TriMesh& mesh,
+                                                            const DrawnVertices& split,
+                                                            std::size_t n_materials) {
+  if (mesh.materials.empty() || n_materials == 1) return {split.indices};
+  std::vector<std::vector<std::uint32_t>> out(n_materials);
+  for (std::size_t i = 0; i < split.indices.size(); ++i)
+    out[static_cast<std::size_t>(mesh.materials[i / 3])].push_back(split.indices[i]);
+  return out;
+}
+
+Json add_primitives(Content& content, const TriMesh& mesh, const GlbOptions& options,
+                    const std::vector<GlbMaterial>& materials) {
+  const DrawnVertices split = split_vertices(mesh, tangents_for(mesh, materials));
   Json attributes{{"POSITION", add_positions(content, pick(mesh.positions, split.source))}};
   const auto add = [&](const char* name, const std::vector<glm::vec3>& values) {
     attributes[name] =
@@ -149,8 +194,16 @@ Json add_primitive(Content& content, const TriMesh& mesh, const GlbOptions& opti
   }
   if (!split.tangents.empty())
     attributes["TANGENT"] = add_accessor(content, split.tangents, kGltfFloat, "VEC4", kVertexData);
-  if (!mesh.colors.empty() && options.base_color.empty()) add("COLOR_0", mesh.colors);
-  return {{"attributes", attributes}, {"indices", add_indices(content, split)}, {"material", 0}};
+  if (!mesh.colors.empty() && options.base_color.empty() && options.materials.empty())
+    add("COLOR_0", mesh.colors);
+  Json out = Json::array();
+  const auto indices = indices_by_material(mesh, split, materials.size());
+  for (std::size_t m = 0; m < indices.size(); ++m)
+    if (!indices[m].empty())
+      out.push_back({{"attributes", attributes},
+                     {"indices", add_indices(content, indices[m], split.source.size())},
+                     {"material", m}});
+  return out;
 }
 
 // --- the JSON chunk ---
@@ -161,9 +214,11 @@ const char* mime_type(const std::string& picture, const std::string& file) {
   throw InputError(file, "texture", "is neither PNG nor JPEG, which glTF holds");
 }
 
-// Adds a picture and its texture; gives what a material says of it.
+// Adds a picture and its texture, once; gives what a material says of it.
 Json add_texture(Content& content, Json& root, const std::string& picture,
                  const std::string& file) {
+  const auto [found, is_new] = content.textures.try_emplace(picture, content.textures.size());
+  if (!is_new) return {{"index", found->second}};
   const char* type = mime_type(picture, file);
   const std::size_t view = add_view(content, picture.data(), picture.size(), 0);
   if (!root.contains("textures")) {
@@ -174,6 +229,27 @@ Json add_texture(Content& content, Json& root, const std::string& picture,
   root["images"].push_back({{"bufferView", view}, {"mimeType", type}});
   root["textures"].push_back({{"sampler", 0}, {"source", root["images"].size() - 1}});
   return {{"index", root["textures"].size() - 1}};
+}
+
+// What is glTF's default is not said.
+Json format_glb_material(Content& content, Json& root, const GlbMaterial& m,
+                         const std::string& file) {
+  Json out = Json::object();
+  if (!m.name.empty()) out["name"] = m.name;
+  Json& pbr = out["pbrMetallicRoughness"];
+  pbr = {{"metallicFactor", m.metallic}, {"roughnessFactor", m.roughness}};
+  const glm::dvec4& c = m.base_color_factor;
+  if (c != glm::dvec4(1)) pbr["baseColorFactor"] = {c.x, c.y, c.z, c.w};
+  if (!m.base_color.empty())
+    pbr["baseColorTexture"] = add_texture(content, root, m.base_color, file);
+  if (!m.normal_map.empty()) out["normalTexture"] = add_texture(content, root, m.normal_map, file);
+  if (!m.normal_map.empty() && m.normal_scale != 1) out["normalTexture"]["scale"] = m.normal_scale;
+  if (m.emissive != glm::dvec3(0))
+    out["emissiveFactor"] = {m.emissive.x, m.emissive.y, m.emissive.z};
+  if (m.alpha_mode != "OPAQUE") out["alphaMode"] = m.alpha_mode;
+  if (m.alpha_mode == "MASK") out["alphaCutoff"] = m.alpha_cutoff;
+  if (m.is_double_sided) out["doubleSided"] = true;
+  return out;
 }
 
 Json make_root(Content& content, const TriMesh& mesh, const GlbOptions& options,
@@ -188,15 +264,13 @@ Json make_root(Content& content, const TriMesh& mesh, const GlbOptions& options,
             {"scene", 0},
             {"scenes", Json::array({scene})},
             {"nodes", Json::array({root_node})}};
-  const Json primitive = add_primitive(content, mesh, options);
-  root["meshes"] = Json::array({Json{{"primitives", Json::array({primitive})}}});
-  Json material{{"pbrMetallicRoughness", {{"metallicFactor", 0}, {"roughnessFactor", 1}}}};
-  if (!options.base_color.empty())
-    material["pbrMetallicRoughness"]["baseColorTexture"] =
-        add_texture(content, root, options.base_color, file);
-  if (!options.normal_map.empty())
-    material["normalTexture"] = add_texture(content, root, options.normal_map, file);
-  root["materials"] = Json::array({material});
+  const std::vector<GlbMaterial> materials = materials_of(options);
+  const Json primitives = add_primitives(content, mesh, options, materials);
+  root["meshes"] = Json::array({Json{{"primitives", primitives}}});
+  Json all = Json::array();
+  for (const GlbMaterial& material : materials)
+    all.push_back(format_glb_material(content, root, material, file));
+  root["materials"] = all;
   root["accessors"] = content.accessors;
   root["bufferViews"] = content.views;
   root["buffers"] = Json::array({Json{{"byteLength", content.bytes.size()}}});
@@ -237,9 +311,14 @@ void check_input(const TriMesh& mesh, const GlbOptions& options, const std::stri
   VIEWCELL_CHECK(n_corners > 0, file);
   VIEWCELL_CHECK(mesh.texcoords.empty() || mesh.texcoords.size() == n_corners,
                  mesh.texcoords.size(), n_corners);
-  VIEWCELL_CHECK(
-      !mesh.texcoords.empty() || (options.base_color.empty() && options.normal_map.empty()),
-      "a texture without texture coordinates");
+  const std::vector<GlbMaterial> materials = materials_of(options);
+  VIEWCELL_CHECK(!mesh.texcoords.empty() || (!has_picture(materials, &GlbMaterial::base_color) &&
+                                             !has_picture(materials, &GlbMaterial::normal_map)),
+                 "a texture without texture coordinates");
+  for (const std::int32_t m : mesh.materials)
+    VIEWCELL_CHECK(
+        options.materials.empty() || (m >= 0 && static_cast<std::size_t>(m) < materials.size()), m,
+        materials.size());
   check_numbers(mesh.positions, "positions", file);
   check_numbers(mesh.texcoords, "texture coordinates", file);
 }
@@ -252,8 +331,9 @@ void write_glb(const std::filesystem::path& file, const TriMesh& mesh, const Glb
   if (!mesh.corner_normals.empty())
     return write_glb(file, split_by_normals(mesh, remarks).mesh, options, remarks);
   const char* why = "which we do not write to a GLB, left out";
-  add_remark(remarks, std::string("materials, ") + why, mesh.material_names.size());
-  if (!options.base_color.empty())
+  if (options.materials.empty())
+    add_remark(remarks, std::string("materials, ") + why, mesh.material_names.size());
+  if (!options.base_color.empty() || !options.materials.empty())
     add_remark(remarks, std::string("colours of vertices under a texture, ") + why,
                mesh.colors.size());
   Content content;

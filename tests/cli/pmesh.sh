@@ -156,6 +156,21 @@ awk '/^vt/ { next } /^f/ { n += 3; print "vt", n, 0; print "vt", n + 1, 0; print
 expect 5 "$pmesh" build cut.obj --stop-at 100 -o cut.pm
 grep -q "by chart.*; --no-texture leaves charts out" "$log/err" || fail "not held back: $(cat "$log/err")"
 expect 0 "$pmesh" build cut.obj --stop-at 100 --no-texture -o uncut.pm
+# An atlas of one chart a triangle: whatever the metric says of refusals, charts are named.
+ball 12 1 | awk 'NR > 2 && NF == 3 { print "v", $0 }
+  NR > 2 && NF == 4 { x = int(n / 30) / 30; y = n++ % 30 / 30
+    print "vt", x, y; print "vt", x + 0.02, y; print "vt", x, y + 0.02
+    print "f " $2 + 1 "/" 3 * n - 2, $3 + 1 "/" 3 * n - 1, $4 + 1 "/" 3 * n }' >atlas.obj
+for metric in qem3 mapping; do
+  expect 0 "$pmesh" build atlas.obj --metric $metric -o atlas.pm --json atlas.json
+  grep -q "528 -> 528 faces" "$log/err" || fail "$metric: an atlas of triangles collapses: $(cat "$log/err")"
+  says atlas.json '.remarks[0].count == 528 and (.remarks[0].what | test("hold collapses back: .*--no-texture.*--engine rebake --onto"))' ||
+    fail "$metric: charts are not named: $(cat atlas.json)"
+done
+expect 0 "$pmesh" build atlas.obj --metric qem5 -o atlas.pm
+grep -q "back: --metric qem3 --no-texture" "$log/err" || fail "qem5 needs coordinates"
+expect 0 "$pmesh" build atlas.obj --no-texture -o atlas.pm --json atlas.json
+says atlas.json 'has("remarks") | not' || fail "charts are named without a texture"
 
 # --flip-v turns v, and turns it back.
 expect 0 "$pmesh" build relief.obj --metric mapping -o straight.pm

@@ -177,6 +177,34 @@ TEST(MeshRenderer, TextureStandsUpright) {
   }
 }
 
+// The square's two triangles with textures of their own: one above the diagonal, one below.
+TEST(MeshRenderer, RunsOfTrianglesShowTheirOwnTextures) {
+  MeshStyle style = plain_style(kShotSize);
+  style.lit = false;
+  const TriMesh square = make_square();
+  ASSERT_EQ(square.triangles.size(), 2u);
+  const auto at_middle = [&](std::size_t t) {
+    return (square.texcoords[3 * t] + square.texcoords[3 * t + 1] + square.texcoords[3 * t + 2]) /
+           3.0f;
+  };
+  const auto draw_runs = [&](const std::vector<TexturedRun>& runs) {
+    return MeshRenderer(shared_context().gl(), square, own_frame(square), runs, style)
+        .draw(front_view());
+  };
+  const ImageRgba8 red(2, 2, kRed), blue(1, 1, kBlue);
+  const ImageRgba8 one = draw_runs({{red, 1}, {blue, 1}}), other = draw_runs({{blue, 1}, {red, 1}});
+  const glm::vec2 a = at_middle(0), b = at_middle(1);
+  EXPECT_LE(most_difference(at_uv(one, a.x, a.y), kRed), 1);
+  EXPECT_LE(most_difference(at_uv(one, b.x, b.y), kBlue), 1);
+  EXPECT_LE(most_difference(at_uv(other, a.x, a.y), kBlue), 1);
+  EXPECT_LE(most_difference(at_uv(other, b.x, b.y), kRed), 1);
+  const ImageRgba8 quadrants = make_quadrants(16, 16);
+  EXPECT_EQ(draw_runs({{quadrants, 1}, {quadrants, 1}}).pixels,
+            draw(square, front_view(), style, &quadrants).pixels);
+  EXPECT_EQ(draw_runs({{quadrants, 2}}).pixels,
+            draw(square, front_view(), style, &quadrants).pixels);
+}
+
 TEST(MeshRenderer, TextureRepeats) {
   MeshStyle style = plain_style(kShotSize);
   style.lit = false;

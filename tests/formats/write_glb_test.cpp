@@ -277,6 +277,140 @@ TEST(WriteGlb, SameBytesEveryTimeAndAGeneratorByDefault) {
       split_glb(bytes).json["asset"]["generator"].get<std::string>().starts_with("viewcell "));
 }
 
+// ---- materials ----
+
+//  3--2--5    a: triangles 0 and 1, b: 2, c: none, d: 3
+//  |/ |/ |
+//  0--1--4
+TriMesh make_strip() {
+  TriMesh mesh;
+  mesh.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {2, 0, 0}, {2, 1, 0}};
+  mesh.triangles = {{0, 1, 2}, {0, 2, 3}, {1, 4, 5}, {1, 5, 2}};
+  mesh.material_names = {"a", "b", "c", "d"};
+  mesh.materials = {0, 0, 1, 3};
+  for (const Triangle& t : mesh.triangles)
+    for (const std::uint32_t v : t)
+      mesh.texcoords.emplace_back(0.5f * mesh.positions[v].x, mesh.positions[v].y);
+  return mesh;
+}
+
+Json write_json(const TriMesh& mesh, const GlbOptions& options, Remarks* remarks = nullptr) {
+  const TemporaryFolder folder;
+  write_glb(folder.path() / "a.glb", mesh, options, remarks);
+  return split_glb(read_file(folder.path() / "a.glb")).json;
+}
+
+TEST(WriteGlb, MaterialsArePrimitivesOverOneListOfVertices) {
+  const TriMesh mesh = make_strip();
+  GlbOptions options;
+  options.materials.resize(4);
+  options.materials[0] = {.name = "skin", .base_color = kPng, .normal_map = kPng};
+  options.materials[0].base_color_factor = {0.5, 1, 1, 0.25};
+  options.materials[0].normal_scale = 2;
+  options.materials[0].alpha_mode = "BLEND";
+  options.materials[1].name = "cloth";
+  options.materials[1].base_color = encode_png(ImageRgba8(5, 5));
+  options.materials[1].metallic = 0.5, options.materials[1].roughness = 0.25;
+  options.materials[1].alpha_mode = "MASK", options.materials[1].alpha_cutoff = 0.75;
+  options.materials[3].emissive = {0, 0, 1};
+  options.materials[3].is_double_sided = true;
+  Remarks remarks;
+  const Json json = write_json(mesh, options, &remarks);
+  EXPECT_TRUE(remarks.empty());
+  const Json& primitives = json["meshes"][0]["primitives"];
+  ASSERT_EQ(primitives.size(), 3u);
+  std::vector<std::size_t> n_indices;
+  for (const Json& p : primitives) {
+    EXPECT_EQ(p["attributes"], primitives[0]["attributes"]);
+    n_indices.push_back(json["accessors"][p["indices"].get<std::size_t>()]["count"]);
+  }
+  EXPECT_EQ(n_indices, (std::vector<std::size_t>{6, 3, 3}));
+  EXPECT_EQ(primitives[1]["material"], 1);
+  EXPECT_EQ(primitives[2]["material"], 3);
+  EXPECT_EQ(json["images"].size(), 2u);  // one of them twice
+  ASSERT_EQ(json["materials"].size(), 4u);
+  EXPECT_EQ(json["materials"][0], Json::parse(R"({"name": "skin",
+    "pbrMetallicRoughness": {"metallicFactor": 0.0, "roughnessFactor": 1.0,
+      "baseColorFactor": [0.5, 1.0, 1.0, 0.25], "baseColorTexture": {"index": 0}},
+    "normalTexture": {"index": 0, "scale": 2.0}, "alphaMode": "BLEND"})"));
+  EXPECT_EQ(json["materials"][1], Json::parse(R"({"name": "cloth",
+    "pbrMetallicRoughness": {"metallicFactor": 0.5, "roughnessFactor": 0.25,
+      "baseColorTexture": {"index": 1}}, "alphaMode": "MASK", "alphaCutoff": 0.75})"));
+  EXPECT_EQ(json["materials"][3], Json::parse(R"({
+    "pbrMetallicRoughness": {"metallicFactor": 0.0, "roughnessFactor": 1.0},
+    "emissiveFactor": [0.0, 0.0, 1.0], "doubleSided": true})"));
+}
+
+TEST(WriteGlb, MaterialsComeBackWithTheirTriangles) {
+  const TemporaryFolder folder;
+  TriMesh mesh = make_strip();
+  mesh.materials = {3, 0, 1, 0};  // triangles of a material come together
+  GlbOptions options;
+  options.materials.resize(4);
+  for (std::size_t m = 0; m < 4; ++m) options.materials[m].name = mesh.material_names[m];
+  write_glb(folder.path() / "a.glb", mesh, options);
+  const TriMesh back = read_mesh(folder.path() / "a.glb");
+  EXPECT_EQ(back.positions, mesh.positions);
+  EXPECT_EQ(back.triangles, (std::vector<Triangle>{mesh.triangles[1], mesh.triangles[3],
+                                                   mesh.triangles[2], mesh.triangles[0]}));
+  std::vector<std::string> names;
+  for (const std::int32_t m : back.materials)
+    names.push_back(back.material_names[static_cast<std::size_t>(m)]);
+  EXPECT_EQ(names, (std::vector<std::string>{"a", "a", "b", "d"}));
+  for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(back.texcoords[9 + k], mesh.texcoords[k]);
+}
+
+// What multiplies a texture is left out, and said.
+TEST(WriteGlb, ColoursBesideMaterialsAreLeftOut) {
+  TriMesh mesh = make_strip();
+  mesh.colors.assign(6, {1, 0, 0});
+  GlbOptions options;
+  options.materials.resize(4);
+  Remarks remarks;
+  const Json json = write_json(mesh, options, &remarks);
+  EXPECT_FALSE(json["meshes"][0]["primitives"][0]["attributes"].contains("COLOR_0"));
+  ASSERT_EQ(remarks.size(), 1u);
+  EXPECT_EQ(remarks[0].count, 6u);
+  options.materials.resize(3);  // material 3 has none
+  EXPECT_THROW(write_json(mesh, options), BugError);
+}
+
+//  3--2--5    u grows to the right under material 0, and to the left under 1 and 3: at vertices 1
+//  |/ |/ |    and 2, which share coordinates, tangents are of their own material alone
+//  0--1--4
+TEST(WriteGlb, TangentsAreThoseOfTheirMaterial) {
+  TriMesh mesh = make_strip();
+  mesh.normals.assign(6, {0, 0, 1});
+  for (std::size_t c = 6; c < 12; ++c) {
+    glm::vec2& uv = mesh.texcoords[c];
+    uv = {0.5f + 0.25f * (uv.y - 0.5f), 0.5f - (uv.x - 0.5f)};
+  }
+  GlbOptions options;
+  options.materials.resize(4);
+  for (GlbMaterial& m : options.materials) m.normal_map = kPng;
+  const TemporaryFolder folder;
+  write_glb(folder.path() / "a.glb", mesh, options);
+  const Glb glb = split_glb(read_file(folder.path() / "a.glb"));
+  const auto read = [&](const Json& id, auto& out) {
+    const Json& accessor = glb.json["accessors"][id.get<std::size_t>()];
+    const Json& view = glb.json["bufferViews"][accessor["bufferView"].get<std::size_t>()];
+    out.resize(accessor["count"].get<std::size_t>());
+    std::memcpy(out.data(), glb.binary.data() + view["byteOffset"].get<std::size_t>(),
+                out.size() * sizeof out[0]);
+  };
+  const Json& primitives = glb.json["meshes"][0]["primitives"];
+  std::vector<glm::vec4> tangents;
+  read(primitives[0]["attributes"]["TANGENT"], tangents);
+  const std::vector<glm::vec4> expected{{1, 0, 0, 1}, {0, 1, 0, 1}, {0, 1, 0, 1}};
+  for (std::size_t p = 0; p < 3; ++p) {
+    std::vector<std::uint16_t> indices;
+    read(primitives[p]["indices"], indices);
+    for (const std::uint16_t i : indices)
+      for (int k = 0; k < 4; ++k)
+        EXPECT_NEAR(tangents[i][k], expected[p][k], 1e-6) << p << " " << i;
+  }
+}
+
 TEST(WriteGlb, WhatCannotBeWrittenIsRefused) {
   const TemporaryFolder folder;
   const auto file = folder.path() / "a.glb";

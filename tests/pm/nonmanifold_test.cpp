@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "mesh/surface_distance.h"
+#include "mesh/surface_samples.h"
 #include "pm/build.h"
 #include "pm/shapes.h"
 #include "pm/ways.h"
@@ -13,7 +14,7 @@ namespace viewcell {
 namespace {
 
 // n_sheets squares of n x n around the z axis, which all have its vertices 0 ... n.
-TriMesh make_book(std::uint32_t n_sheets, std::uint32_t n) {
+TriMesh make_sheets(std::uint32_t n_sheets, std::uint32_t n) {
   TriMesh mesh;
   for (std::uint32_t z = 0; z <= n; ++z) mesh.positions.emplace_back(0, 0, z);
   for (std::uint32_t s = 0; s < n_sheets; ++s) {
@@ -60,13 +61,7 @@ TriMesh make_sphere_with_fins(std::size_t n_fins) {
   return mesh;
 }
 
-double area_of(const TriMesh& mesh) {
-  double area = 0;
-  for (const Triangle& t : mesh.triangles) area += 0.5 * glm::length(area_normal(mesh, t));
-  return area;
-}
-
-double distance(const TriMesh& a, const TriMesh& b) {
+double symmetric_distance(const TriMesh& a, const TriMesh& b) {
   return measure_surface_distance(a, b, {.n_samples = 20000}).symmetric().max;
 }
 
@@ -83,13 +78,13 @@ TEST(NonManifold, SheetsThatMeetInALineGoDownToTwoTrianglesEach) {
       SCOPED_TRACE(testing::Message()
                    << metric_name(way.metric) << ' ' << placement_name(way.placement) << ", "
                    << n_sheets << " sheets");
-      const TriMesh book = make_book(n_sheets, 8);
+      const TriMesh book = make_sheets(n_sheets, 8);
       ProgressiveMesh pm(build_progressive_mesh(book, options_of(way)).record);
       pm.set_faces(4 * n_sheets);
       const TriMesh left = pm.extract();
       EXPECT_LE(left.triangles.size(), 4 * n_sheets);
-      EXPECT_NEAR(area_of(left), n_sheets * 64.0, 0.01 * n_sheets * 64);
-      EXPECT_LT(distance(book, left), 0.05);
+      EXPECT_NEAR(surface_area(left), n_sheets * 64.0, 0.01 * n_sheets * 64);
+      EXPECT_LT(symmetric_distance(book, left), 0.05);
     }
 }
 
@@ -103,7 +98,7 @@ TEST(NonManifold, SurfacesThatTouchGoOnSimplifying) {
     ProgressiveMesh pm(build_progressive_mesh(mesh, options).record);
     pm.set_faces(100);
     EXPECT_LE(pm.n_faces(), 100u);
-    EXPECT_LT(distance(mesh, pm.extract()), 0.2);
+    EXPECT_LT(symmetric_distance(mesh, pm.extract()), 0.2);
   }
 }
 
@@ -121,7 +116,7 @@ TEST(NonManifold, FinsVanish) {
 // What is said to bound the distance does, whatever sheets are torn along and fins are lost.
 TEST(NonManifold, BoundsHold) {
   for (const TriMesh& mesh :
-       {make_book(3, 6), make_book(4, 6), make_touching_spheres(), make_sphere_with_fins(12)})
+       {make_sheets(3, 6), make_sheets(4, 6), make_touching_spheres(), make_sphere_with_fins(12)})
     for (const Way& way : kWays) {
       if (needs_texture(way)) continue;
       SCOPED_TRACE(testing::Message() << metric_name(way.metric) << placement_name(way.placement));
@@ -131,14 +126,14 @@ TEST(NonManifold, BoundsHold) {
       for (std::size_t n = mesh.triangles.size(); n > 8; n = n * 2 / 3) {
         pm.set_faces(n);
         if (pm.error() < 0 || pm.n_faces() > n) continue;
-        EXPECT_LE(distance(mesh, pm.extract()), pm.error() * 1.0001 + 1e-6) << n;
+        EXPECT_LE(symmetric_distance(mesh, pm.extract()), pm.error() * 1.0001 + 1e-6) << n;
       }
     }
 }
 
 // Each sheet of the star is mapped: the cells' old and new areas are those of its faces.
 TEST(NonManifold, RecordsAreSound) {
-  for (const TriMesh& mesh : {make_book(3, 5), make_touching_spheres(), make_sphere_with_fins(9)})
+  for (const TriMesh& mesh : {make_sheets(3, 5), make_touching_spheres(), make_sphere_with_fins(9)})
     for (const Way& way : kWays) {
       if (needs_texture(way)) continue;
       const ProgressiveRecord record = build_progressive_mesh(mesh, options_of(way)).record;

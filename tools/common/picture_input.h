@@ -23,10 +23,20 @@ inline void declare_max_pixels(Command& command, std::optional<std::size_t>* max
 /// wanted.
 inline ImageRgba8 read_texture_input(const Tool& tool, const std::string& name,
                                      const std::optional<std::size_t>& max_pixels,
-                                     std::string* hash = nullptr) {
+                                     std::string* hash = nullptr, int* lossy_quality = nullptr) {
   Remarks remarks;
-  ImageRgba8 image = read_texture(name, hash, {{max_pixels}, &remarks});
+  ImageRgba8 image = read_texture(name, hash, {{max_pixels}, &remarks}, lossy_quality);
   tool.remark(name, remarks);
+  return image;
+}
+
+/// The same of one of a model's pictures.
+inline ImageRgba8 decode_picture_input(const Tool& tool, const ModelPicture& picture,
+                                       const std::optional<std::size_t>& max_pixels,
+                                       int* lossy_quality = nullptr) {
+  Remarks remarks;
+  ImageRgba8 image = decode_texture(picture, {{max_pixels}, &remarks}, lossy_quality);
+  tool.remark(picture.name, remarks);
   return image;
 }
 

@@ -20,7 +20,8 @@ void declare_surface(Command& command, MeshshotArguments& o) {
           "--texture", &o.texture,
           "picture for the mesh's texture coordinates, repeated, filtered with mipmaps: a file, a "
           "GLB's base colour, or model.glb#normal (also #emissive, #occlusion, "
-          "#metallicRoughness); textures that MESH names or holds are not read unless they are "
+          "#metallicRoughness), or an OBJ's map_Kd; of several materials each shows its own; "
+          "textures that MESH names or holds are not read unless they are "
           "given here")
       .reads("the texture that is read", texture_file);
   command

@@ -8,8 +8,8 @@
 #include "common/provenance.h"
 #include "common/stopwatch.h"
 #include "gl/context.h"
-#include "image/index_map.h"
 #include "meshshot/arguments.h"
+#include "meshshot/textures.h"
 #include "report/table.h"
 
 namespace viewcell {
@@ -31,30 +31,9 @@ MeshFrame choose_frame(const Tool& tool, MeshshotArguments& o, const TriMesh& me
   return make_frame(moved(box_of_triangles(like), like.offset - mesh.offset), up, source);
 }
 
-struct Textures {
-  std::optional<ImageRgba8> color, normal_map;
-  std::optional<IndexMap> index_map;
-};
-
 template <typename T>
 const T* address_of(const std::optional<T>& value) {
   return value ? &*value : nullptr;
-}
-
-Textures read_textures(const Tool& tool, MeshshotArguments& o, const TriMesh& mesh) {
-  Textures textures;
-  if (o.texture.empty() && o.normal_map.empty()) return textures;
-  if (mesh.texcoords.empty())
-    throw InputError(o.mesh_file, "",
-                     std::string("has no texture coordinates, which --") +
-                         (o.texture.empty() ? "normal-map" : "texture") + " needs");
-  if (!o.texture.empty())
-    textures.color = read_texture_input(tool, o.texture, o.max_pixels, &o.texture_hash);
-  if (!o.normal_map.empty())
-    textures.normal_map = read_texture_input(tool, o.normal_map, o.max_pixels, &o.normal_map_hash);
-  if (!o.map_file.empty())
-    textures.index_map = read_index_map(o.map_file, &o.map_hash, nullptr, {o.max_pixels});
-  return textures;
 }
 
 Json format_provenance(const Tool& tool, const MeshshotArguments& o) {
@@ -72,12 +51,12 @@ Json format_provenance(const Tool& tool, const MeshshotArguments& o) {
 int run(const Tool& tool, MeshshotArguments& o) {
   Stopwatch watch;
   check_shot_folder(o.shots.folder, o.shots.n_views);
-  const TriMesh mesh = read_mesh_input(tool, o.mesh_file, &o.mesh_hash);
+  TriMesh mesh = read_mesh_input(tool, o.mesh_file, &o.mesh_hash);
   const MeshFrame frame = choose_frame(tool, o, mesh);
-  const Textures textures = read_textures(tool, o, mesh);
+  const ShotTextures textures = read_textures(tool, o, mesh);
   const double read_s = watch.lap_s();
   const GlContext context(parse_gl_engine(o.gl));
-  const MeshRenderer renderer(context.gl(), mesh, frame, address_of(textures.color), o.style,
+  const MeshRenderer renderer(context.gl(), mesh, frame, textures.textures(), o.style,
                               address_of(textures.index_map), address_of(textures.normal_map));
   const double upload_s = watch.lap_s();
   o.shots.title = fs::path(o.mesh_file).filename().string() + ", " +

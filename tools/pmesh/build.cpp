@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <numeric>
 
 #include "common/mesh_input.h"
 #include "common/provenance.h"
@@ -9,6 +10,7 @@
 #include "mesh/used_vertices.h"
 #include "pm/pm_file.h"
 #include "pmesh/commands.h"
+#include "uv/chart_map.h"
 
 namespace viewcell {
 namespace {
@@ -101,6 +103,29 @@ Remarks remark_on(const BuildResult& result) {
   return out;
 }
 
+// Charts are to blame where they are the reason of most refusals, or hardly more faces are left
+// than charts (a metric that measures within charts refuses nothing: it has no cost).
+void remark_charts(const Tool& tool, const PmeshArguments& a, const TriMesh& mesh,
+                   const CollapseCounts& counts, std::size_t n_base) {
+  constexpr std::size_t kMuch = 10;     // a tenth of the faces is left
+  constexpr std::size_t kFewFaces = 4;  // a chart
+  if (mesh.texcoords.empty() || n_base * kMuch <= mesh.triangles.size() ||
+      n_base <= a.build.target_faces)
+    return;
+  const std::size_t n_charts = find_charts(mesh).size();
+  const std::size_t by_chart = counts.n_refused[static_cast<std::size_t>(Refusal::chart)];
+  const std::size_t all =
+      std::accumulate(counts.n_refused.begin() + 1, counts.n_refused.end(), std::size_t{0});
+  if (n_charts < 2 || (2 * by_chart <= all && n_base > kFewFaces * n_charts)) return;
+  const char* how =
+      texture_needs(a.build).coordinates ? "--metric qem3 --no-texture" : "--no-texture";
+  tool.remark(a.model,
+              {{std::string("charts of its texture, whose borders hold collapses back: ") + how +
+                    " goes on across them, and texadapt --engine rebake --onto makes a "
+                    "texture for what pmesh extract takes out of that",
+                n_charts}});
+}
+
 }  // namespace
 
 int build(const Tool& tool, const PmeshArguments& a) {
@@ -128,6 +153,7 @@ int build(const Tool& tool, const PmeshArguments& a) {
     tool.say(std::to_string(n_faces) + " -> " + std::to_string(n_base) + " faces, " +
              std::to_string(counts.n_collapses) +
              " collapses; refused: " + format_refusals(counts));
+  remark_charts(tool, a, mesh, counts, n_base);
   tool.report({{"faces_in", n_faces},
                {"faces_base", n_base},
                {"collapses", counts.n_collapses},

@@ -23,6 +23,13 @@ void declare_levels(Command& command, TexadaptArguments& a) {
           "ones too; N is put into the files' names, and each level's mesh is written "
           "beside its texture (as .ply, unless --mesh or --format glb)")
       .excludes("--faces");
+  command
+      .add_option("--onto", &a.onto,
+                  "of --engine rebake: not a level but this mesh, which lies where PM's does; "
+                  "without texture coordinates it gets some, a chart a triangle (.glb or --mesh)")
+      .excludes("--faces")
+      .excludes("--levels")
+      .reads("the mesh that is baked onto");
   command.add_option(
       "--from", &a.start_text,
       "N=MAP: start from this indexing map (.exr, .tif) of the level of N faces, not "
@@ -52,6 +59,22 @@ void declare_outputs(Command& command, TexadaptArguments& a) {
       .needs("--normal-map")
       .check(one_of({"up", "down"}))
       .show_default();
+  command
+      .add_flag(
+          "--no-normal-map", &a.no_normal_map,
+          "leave out the normal maps of a GLB or glTF TEXTURE, which --format glb otherwise has")
+      .excludes("--normal-map");
+  command
+      .add_option("--texture-size", &a.texture_side,
+                  "pictures that are written have this longer side at most, in pixels; --size is "
+                  "that of the map, which they have otherwise")
+      .check(in_range(1, static_cast<int>(kMostSide)));
+  command
+      .add_option(
+          "--quality", &a.quality,
+          "of pictures of a .glb that were JPEG or lossy WebP and are stored as JPEG again, "
+          "1 to 100 (default: their own; of WebP 90); all others are PNG")
+      .check(in_range(1, 100));
   command.add_option("--format", &a.format_name, "png | glb, with the mesh (default: as -o ends)")
       .check(one_of({"png", "glb"}));
   command.add_flag("--bake", &a.bake,
@@ -80,6 +103,9 @@ void declare_engine(Command& command, TexadaptArguments& a) {
   command.add_flag("--no-pack", &a.one_by_one, "one adaptation after another, on one thread");
   command.add_flag("--allow-overlap", &a.allows_overlap,
                    "go on where two charts lie on the same texels; these follow one of them");
+  command.add_flag("--keep-repeating", &a.keeps_repeating,
+                   "of a .glb: pictures that repeat on their material stay as they are, on the "
+                   "level's texture coordinates, which drift a little (default: refused)");
   declare_max_pixels(command, &a.max_pixels);
 }
 
@@ -162,6 +188,8 @@ void check_combinations(const TexadaptArguments& a) {
     throw UsageError(a.engine == AdaptEngine::rebake
                          ? "--engine rebake has no indexing map"
                          : "--texels texture adapts the texture and has no indexing map");
+  if (!a.onto.empty() && a.engine != AdaptEngine::rebake)
+    throw UsageError("--onto is for --engine rebake: a texture follows levels of PM alone");
   if (!has_map && a.has_normal_map)
     throw UsageError(
         "--normal-map wants an indexing map, which --engine rebake and --texels "
@@ -174,6 +202,15 @@ void check_combinations(const TexadaptArguments& a) {
     throw UsageError("--normal-map IMAGE alone is for --format glb; elsewhere: IMAGE=OUT.png");
   if (a.options.texel == TexelKind::texture && !a.size.empty())
     throw UsageError("--size is of an indexing map; --texels texture has none");
+  if (a.format != LevelFormat::glb && a.quality)
+    throw UsageError("--quality is of JPEGs in a .glb; other pictures are PNG");
+  if (a.format != LevelFormat::glb && a.no_normal_map)
+    throw UsageError("--no-normal-map is for a .glb, which has those of TEXTURE otherwise");
+  if (a.keeps_repeating && (a.format != LevelFormat::glb || !a.onto.empty()))
+    throw UsageError(
+        "--keep-repeating is for levels as .glb, which hold the picture with the mesh");
+  if (a.format == LevelFormat::map && a.texture_side > 0)
+    throw UsageError("--texture-size is of pictures, not of an indexing map (--size)");
   if (a.format == LevelFormat::glb && !a.mesh.empty())
     throw UsageError("--format glb holds the mesh: no --mesh");
 }
@@ -221,12 +258,15 @@ void declare_arguments(Tool& tool, TexadaptArguments& a) {
   tool.add_option("PM", &a.pm, "progressive mesh with texture coordinates (pmesh build)")
       .required()
       .reads("the progressive mesh that is read");
-  tool.add_option(
-          "TEXTURE", &a.texture,
-          "its texture; row 0 is v = 1. A picture, or a GLB's (model.glb, model.glb#normal)")
+  tool.add_option("TEXTURE", &a.texture,
+                  "its texture; row 0 is v = 1. A picture; one of a GLB's slots "
+                  "(model.glb#normal); or a GLB, "
+                  "glTF or OBJ with the pictures of its materials, of which several go into a .glb "
+                  "together")
       .required()
       .reads("the texture that is read", texture_file);
   declare_levels(tool, a);
+  tool.add_mesh_limit(tool);
   declare_outputs(tool, a);
   declare_engine(tool, a);
   tool.add_output_stem(
@@ -239,6 +279,8 @@ void finish_arguments(Tool& tool, TexadaptArguments& a) {
     a.levels = {*a.faces};
   else if (!a.level_list.empty())
     a.levels = parse_levels(a.level_list), a.names_levels = true;
+  else if (!a.onto.empty())
+    a.levels = {0};  // none
   else
     throw UsageError("--faces N or --levels N,N,.. says which level");
   if (a.engine_name == "rebake") a.engine = AdaptEngine::rebake;

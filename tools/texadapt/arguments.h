@@ -24,6 +24,7 @@ struct TexadaptArguments {
   std::vector<std::size_t> levels;  ///< faces
   bool names_levels = false;        ///< files have the level's faces in their names
   std::string mesh, index_map, log, replay, start;
+  std::string onto;  ///< a mesh to rebake onto, instead of levels
   bool has_normal_map = false;
   FurtherTexture normal_map;  ///< from "": the finest mesh's shading; to "": into the GLB alone
   NormalMapOptions normal_map_options;
@@ -33,6 +34,10 @@ struct TexadaptArguments {
   AdaptLevelsOptions options;
   bool allows_overlap = false;
   std::optional<std::size_t> max_pixels;  ///< of pictures that are read
+  bool no_normal_map = false;             ///< a model's own is left out
+  bool keeps_repeating = false;           ///< pictures that repeat stay as they are
+  std::optional<int> quality;  ///< of pictures that are stored as JPEG; without: their own
+  int texture_side = 0;        ///< of pictures that are written, at most; 0: as they are
 
   /// The name of an output at a level: with --levels "head.png" becomes "head-500.png".
   std::string name_at(const std::string& file, std::size_t level) const;

@@ -1,26 +1,19 @@
 #include "texadapt/inputs.h"
 
+#include <algorithm>
+
 #include "adapt/adapt_file.h"
 #include "base/error.h"
 #include "common/picture_input.h"
 #include "image/index_map.h"
 #include "pm/pm_file.h"
 #include "texadapt/level_writer.h"
-#include "uv/chart_checks.h"
 
 namespace viewcell {
 namespace {
 
-// The map is of the start's size or the texture's, unless told.
-void settle_size(AdaptLevelsOptions& o, const ImageRgba8& texture) {
-  if (o.width_px == 0) o.width_px = o.start ? o.start->width_px : texture.width_px;
-  if (o.height_px == 0) o.height_px = o.start ? o.start->height_px : texture.height_px;
-}
-
 TriMesh extract_finest(const ProgressiveRecord& record) {
-  ProgressiveMesh mesh(record);
-  mesh.set_level(mesh.n_splits());
-  return mesh.extract();
+  return make_finest(record).extract();
 }
 
 // A map that says what it is of must be of this level.
@@ -36,6 +29,59 @@ void check_start(const TexadaptArguments& a, const TexadaptInputs& in, const std
                              : "is the map of another progressive mesh");
 }
 
+// With several pictures a level is a GLB, and nothing that is of one picture.
+void check_several(const TexadaptArguments& a, const TexadaptInputs& in) {
+  const std::size_t n = in.shown.pictures.size();
+  if (n == 1 && !in.shown.pictures[0].faces.empty() && !(a.log.empty() && a.replay.empty()))
+    throw UsageError("--log and --replay are for one picture on all faces; of " + a.texture +
+                     " some show none");
+  if (n == 1 && !in.shown.pictures[0].faces.empty() && !a.onto.empty())
+    throw UsageError("--onto is for a picture on all faces; of " + a.texture + " some show none");
+  if (n < 2) return;
+  if (!a.onto.empty())
+    throw UsageError("--onto is for one picture; " + a.texture + " has " + std::to_string(n));
+  const auto refuse = [&](bool is_given, const char* what) {
+    if (is_given)
+      throw UsageError(std::string(what) + " is for one picture; " + a.texture + " has " +
+                       std::to_string(n) + ", which -o NAME.glb holds together");
+  };
+  refuse(a.format != LevelFormat::glb, "a .png or an indexing map");
+  refuse(!a.index_map.empty(), "--index-map");
+  refuse(!a.start.empty(), "--from");
+  refuse(!a.further.empty(), "--also");
+  refuse(!a.log.empty(), "--log");
+  refuse(!a.replay.empty(), "--replay");
+  refuse(!a.normal_map.from.empty() || !a.normal_map.to.empty(), "--normal-map IMAGE");
+}
+
+// A mesh that is baked onto has one material.
+void keep_one_look(ShownPictures& shown) {
+  const auto found = std::find(shown.picture_of.begin(), shown.picture_of.end(), 0);
+  if (found == shown.picture_of.end()) return;
+  shown.looks = {shown.looks[static_cast<std::size_t>(found - shown.picture_of.begin())]};
+  shown.picture_of = {0};
+}
+
+// ---- charts ----
+
+// Other faces are in no chart: each is one point. So numbers of triangles stay.
+TriMesh only_faces(const TriMesh& finest, const std::vector<bool>& faces) {
+  TriMesh out = finest;
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    if (faces[f]) continue;
+    out.triangles[f].fill(out.triangles[f][0]);
+    for (std::size_t k = 0; k < 3; ++k) out.texcoords[3 * f + k] = glm::vec2(0);
+  }
+  return out;
+}
+
+ChartFindings find_charts_of(const TexadaptArguments& a, const TexadaptInputs& in,
+                             const ShownPicture& picture) {
+  const AdaptLevelsOptions o = options_of(a, picture);
+  if (picture.faces.empty()) return check_charts(in.finest, o.width_px, o.height_px);
+  return check_charts(only_faces(in.finest, picture.faces), o.width_px, o.height_px);
+}
+
 std::string describe_moves(const ChartFindings& findings) {
   const glm::ivec2 tile = findings.tile;
   if (tile != glm::ivec2(0))
@@ -47,51 +93,97 @@ std::string describe_moves(const ChartFindings& findings) {
 }
 
 // Charts in other tiles of a repeating picture are moved into the first.
-void leave_tiles(TexadaptInputs& in, ChartFindings& findings, const TexadaptArguments& a) {
-  if (findings.tiles.empty()) return;
-  std::vector<glm::vec2> by;
-  for (const glm::ivec2& tile : findings.tiles) by.push_back(-glm::vec2(tile));
+void leave_tiles(const TexadaptArguments& a, TexadaptInputs& in) {
+  std::vector<glm::vec2> by(in.finest.triangles.size(), glm::vec2(0));
+  for (const ShownPicture& picture : in.shown.pictures) {
+    const ChartFindings findings = find_charts_of(a, in, picture);
+    if (picture.stays || findings.tiles.empty()) continue;
+    for (std::size_t f = 0; f < by.size(); ++f) by[f] -= glm::vec2(findings.tiles[f]);
+    in.charts += (picture.of.empty() ? "" : picture.of + ": ") + describe_moves(findings);
+  }
+  if (in.charts.empty()) return;
+  const std::vector<glm::vec2> before = std::move(in.finest.texcoords);
   move_texcoords(in.record, by);
   in.finest = extract_finest(in.record);
-  in.charts = describe_moves(findings);
-  findings = check_charts(in.finest, a.options.width_px, a.options.height_px);
+  for (std::size_t c = 0; c < before.size(); ++c)
+    if (in.finest.texcoords[c] != before[c] + by[c / 3])
+      throw InputError(a.pm, "",
+                       "charts of different materials share texture coordinates where they meet, "
+                       "and lie in different tiles of pictures that repeat");
+}
+
+// Sets which of the pictures stay as they are, where that is asked for.
+void keep_repeating(const TexadaptArguments& a, TexadaptInputs& in) {
+  for (ShownPicture& picture : in.shown.pictures) {
+    const ChartFindings findings = find_charts_of(a, in, picture);
+    picture.stays = findings.n_repeating > 0 && findings.n_not_finite == 0;
+    if (!picture.stays) continue;
+    if (picture.normal_map.empty()) picture.has_normal_map = false;
+    add_remark(&in.shown.remarks, "pictures that repeat, left as they are");
+  }
+}
+
+// What is only read, to be baked onto another mesh, may show places twice.
+void check_all_charts(const TexadaptArguments& a, TexadaptInputs& in) {
+  const bool allows_overlap = a.allows_overlap || !a.onto.empty();
+  if (a.keeps_repeating) keep_repeating(a, in);
+  leave_tiles(a, in);
+  for (const ShownPicture& picture : in.shown.pictures) {
+    if (picture.stays) continue;
+    const ChartFindings findings = find_charts_of(a, in, picture);
+    const std::string of = picture.of.empty() ? "" : picture.of + ": ";
+    check_obstacle(a.pm, of, findings, allows_overlap);
+    if (!in.charts.empty() && !in.charts.ends_with('\n')) in.charts += '\n';
+    in.charts += of + describe(findings);
+  }
 }
 
 }  // namespace
 
+void check_obstacle(const std::string& file, const std::string& of, const ChartFindings& findings,
+                    bool allows_overlap) {
+  const std::string obstacle = find_obstacle(findings, allows_overlap);
+  if (obstacle.empty()) return;
+  const bool is_overlap = find_obstacle(findings, true).empty();
+  throw InputError(file, "",
+                   of + obstacle + (is_overlap ? " (--allow-overlap goes on all the same)" : ""));
+}
+
+AdaptLevelsOptions options_of(const TexadaptArguments& a, const ShownPicture& picture) {
+  AdaptLevelsOptions o = a.options;
+  if (o.width_px == 0) o.width_px = o.start ? o.start->width_px : picture.texture.width_px;
+  if (o.height_px == 0) o.height_px = o.start ? o.start->height_px : picture.texture.height_px;
+  return o;
+}
+
 TexadaptInputs read_inputs(const Tool& tool, TexadaptArguments& a) {
-  const auto read = [&](const std::string& name) {
-    return read_texture_input(tool, name, a.max_pixels);
-  };
   TexadaptInputs in;
   in.record = read_pm(a.pm);
   if (in.record.texcoords.empty())
     throw InputError(a.pm, "", "has no texture coordinates, so no texture can follow it");
-  in.texture = read(a.texture);
-  for (const FurtherTexture& f : a.further) in.further.push_back(read(f.from));
-  if (!a.normal_map.from.empty()) in.normal_map = read(a.normal_map.from);
+  in.shown = read_pictures(tool, a, in.record);
+  check_several(a, in);
+  if (!a.onto.empty()) keep_one_look(in.shown);
+  for (const FurtherTexture& f : a.further)
+    in.further.push_back(read_texture_input(tool, f.from, a.max_pixels));
   std::string label;
   if (!a.start.empty()) a.options.start = read_index_map(a.start, nullptr, &label, {a.max_pixels});
-  settle_size(a.options, in.texture);
   in.finest = extract_finest(in.record);
-  ChartFindings findings = check_charts(in.finest, a.options.width_px, a.options.height_px);
-  leave_tiles(in, findings, a);
+  check_all_charts(a, in);
   in.hash = adaptation_hash(in.record);
   check_start(a, in, label);
-  if (const std::string obstacle = find_obstacle(findings, a.allows_overlap); !obstacle.empty())
-    throw InputError(a.pm, "",
-                     obstacle + (findings.overlaps.empty() || a.allows_overlap
-                                     ? ""
-                                     : " (--allow-overlap goes on all the same)"));
-  in.charts += describe(findings);
   return in;
 }
 
-AdaptationLog get_log(const Tool& tool, const TexadaptArguments& a,
-                      const ProgressiveRecord& record) {
-  if (!a.replay.empty()) return read_adapt(a.replay, record);
-  AdaptationLog log = make_adaptation_log(record, tool.progress("collapses"));
-  if (!a.log.empty()) write_adapt(a.log, log, record);
+AdaptationLog get_log(const Tool& tool, const TexadaptArguments& a, const TexadaptInputs& in) {
+  if (!a.replay.empty()) return read_adapt(a.replay, in.record);
+  std::vector<std::int32_t> groups;
+  const bool is_one = in.shown.pictures.size() == 1 && in.shown.pictures[0].faces.empty();
+  for (std::size_t f = 0; f < in.record.faces.size() && !is_one; ++f)
+    groups.push_back(
+        in.shown.picture_of[static_cast<std::size_t>(in.record.attributes.materials[f])]);
+  AdaptationLog log = make_adaptation_log(in.record, tool.progress("collapses"), groups);
+  if (!a.log.empty()) write_adapt(a.log, log, in.record);
   return log;
 }
 

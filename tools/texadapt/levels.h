@@ -10,5 +10,8 @@ Json adapt_levels(const Tool& tool, const TexadaptArguments& arguments,
                   const TexadaptInputs& inputs);
 Json rebake_levels(const Tool& tool, const TexadaptArguments& arguments,
                    const TexadaptInputs& inputs);
+/// Writes the files of the mesh of --onto.
+Json rebake_onto(const Tool& tool, const TexadaptArguments& arguments,
+                 const TexadaptInputs& inputs);
 
 }  // namespace viewcell

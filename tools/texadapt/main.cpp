@@ -1,22 +1,30 @@
 // texadapt: a texture that follows the collapses of a progressive mesh, for levels of it.
 #include <cstdio>
 
+#include "texadapt/advice.h"
 #include "texadapt/levels.h"
 
 namespace viewcell {
 namespace {
 
+Json make_report(const Tool& tool, const TexadaptArguments& a, const TexadaptInputs& in) {
+  if (!a.onto.empty()) return rebake_onto(tool, a, in);
+  return a.engine == AdaptEngine::rebake ? rebake_levels(tool, a, in) : adapt_levels(tool, a, in);
+}
+
 int run(const Tool& tool, TexadaptArguments& a) {
   const TexadaptInputs in = read_inputs(tool, a);
-  const Json report =
-      a.engine == AdaptEngine::rebake ? rebake_levels(tool, a, in) : adapt_levels(tool, a, in);
-  tool.say(in.charts);
+  const Json report = make_report(tool, a, in);
+  tool.remark(a.texture, in.shown.remarks);
+  if (!in.charts.empty()) tool.say(in.charts);
   tool.report(report);
-  for (std::size_t i = 0; i < a.levels.size(); ++i) {
+  for (std::size_t i = 0; i < a.levels.size() && a.onto.empty(); ++i) {
     const auto n = report["levels"][i]["faces"].get<std::size_t>();
     if (n <= a.levels[i]) continue;
-    std::fprintf(stderr, "texadapt: %s: %zu faces were asked for, its base has %zu\n", a.pm.c_str(),
-                 a.levels[i], n);
+    const std::string why =
+        report.contains("charts") ? explain_base(n, report["charts"].get<std::size_t>()) : "";
+    std::fprintf(stderr, "texadapt: %s: %zu faces were asked for, its base has %zu%s\n",
+                 a.pm.c_str(), a.levels[i], n, why.c_str());
     return kOverThreshold;
   }
   return 0;

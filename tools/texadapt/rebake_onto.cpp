@@ -1,0 +1,54 @@
+#include "adapt/rebake.h"
+#include "base/error.h"
+#include "common/mesh_input.h"
+#include "common/stopwatch.h"
+#include "mesh/offset.h"
+#include "mesh/used_vertices.h"
+#include "texadapt/level_writer.h"
+#include "texadapt/levels.h"
+#include "uv/triangle_atlas.h"
+
+namespace viewcell {
+namespace {
+
+// What is shown is what is nearest.
+void check_place(const TexadaptArguments& a, const Box& onto, const Box& finest) {
+  for (int k = 0; k < 3; ++k)
+    if (onto.lo[k] > finest.hi[k] || onto.hi[k] < finest.lo[k])
+      throw InputError(a.onto, "", "lies elsewhere than " + a.pm + ": their boxes do not meet");
+}
+
+// With texture coordinates; its materials are not those of the picture.
+TriMesh read_target(const Tool& tool, const TexadaptArguments& a, const TexadaptInputs& in) {
+  TriMesh mesh = read_mesh_input(tool, a.onto);
+  mesh.materials.clear(), mesh.material_names.clear();
+  change_offset(mesh, in.finest.offset);
+  check_place(a, surface_box(mesh), surface_box(in.finest));
+  const AdaptLevelsOptions o = options_of(a, in.shown.pictures[0]);
+  if (!mesh.texcoords.empty()) {
+    check_obstacle(a.onto, "", check_charts(mesh, o.width_px, o.height_px), a.allows_overlap);
+    return mesh;
+  }
+  if (a.format != LevelFormat::glb && a.mesh.empty())
+    throw UsageError(a.onto + " gets texture coordinates, which a .glb or --mesh holds");
+  mesh.texcoords = make_triangle_atlas(mesh, o.width_px, o.height_px, a.onto);
+  return mesh;
+}
+
+}  // namespace
+
+Json rebake_onto(const Tool& tool, const TexadaptArguments& a, const TexadaptInputs& in) {
+  const TriMesh mesh = read_target(tool, a, in);
+  Stopwatch watch;
+  LevelWriter(tool, a, in).write(0, mesh, nullptr, nullptr, [&](const ImageRgba8& texture) {
+    return rebake_texture(mesh, in.finest, texture,
+                          {.width_px = a.options.width_px,
+                           .height_px = a.options.height_px,
+                           .n_threads = tool.common().n_threads,
+                           .progress = tool.progress("rows")});
+  });
+  const std::size_t n = mesh.triangles.size();
+  return {{"faces", n}, {"levels", {{{"faces", n}}}}, {"timing", {{"bake_s", watch.lap_s()}}}};
+}
+
+}  // namespace viewcell
