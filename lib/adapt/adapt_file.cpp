@@ -25,6 +25,7 @@ std::string find_fault(const AdaptationLog& log, const ProgressiveRecord& record
       !is_partition(log.first_triangle, n_steps, log.triangles.size()))
     return "has steps that do not follow one another";
   if (log.charts.size() != record.faces.size()) return "has not one chart a face";
+  if (log.n_charts > log.charts.size()) return "has more charts than faces";
   for (const std::uint32_t chart : log.charts)
     if (chart >= log.n_charts) return "names a chart that is not there";
   for (const AdaptationPoint& point : log.points)

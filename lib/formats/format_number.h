@@ -17,6 +17,13 @@ void append_number(std::string& out, Real x) {
   out.append(digits, std::to_chars(digits, digits + sizeof digits, x).ptr);
 }
 
+/// As %g has it, with as many digits as a whole number of 32 bits takes.
+inline std::string format_number(double x) {
+  char digits[32];
+  std::snprintf(digits, sizeof digits, "%.10g", x);
+  return digits;
+}
+
 /// Three numbers that read back the same, for people: an offset's are whole, or end soon.
 inline std::string format_offset(const glm::dvec3& offset, const char* between) {
   std::string out;

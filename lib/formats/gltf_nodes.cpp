@@ -6,6 +6,7 @@
 #include <string>
 
 #include "formats/gltf_accessors.h"
+#include "mesh/offset.h"
 
 namespace viewcell {
 namespace {
@@ -32,8 +33,9 @@ glm::dmat4 local_matrix(const JsonCursor& node) {
   const auto numbers = [&](const char* key, std::vector<double> standard) {
     return node.has(key) ? node.at(key).numbers(standard.size()) : standard;
   };
-  const std::vector<double> t = numbers("translation", {0, 0, 0}),
-                            q = numbers("rotation", {0, 0, 0, 1}), s = numbers("scale", {1, 1, 1});
+  std::vector<double> t{0, 0, 0};  // where we wrote it: an offset
+  if (node.has("translation")) t = node.at("translation").numbers(3, -kMostOffset, kMostOffset);
+  const std::vector<double> q = numbers("rotation", {0, 0, 0, 1}), s = numbers("scale", {1, 1, 1});
   return make_matrix({t[0], t[1], t[2]}, {q[3], q[0], q[1], q[2]}, {s[0], s[1], s[2]});
 }
 

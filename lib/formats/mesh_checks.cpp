@@ -111,6 +111,13 @@ void check_mesh(const TriMesh& mesh, const std::string& file) {
   check_lengths(mesh);
 }
 
+void fill_colors(TriMesh& mesh, Remarks* remarks) {
+  std::size_t n = 0;
+  for (glm::vec3& color : mesh.colors)
+    if (!is_finite(color)) color = glm::vec3(1), ++n;
+  add_remark(remarks, "colours that are no numbers, taken as white", n);
+}
+
 void normalize_normals(TriMesh& mesh, Remarks* remarks) {
   for (auto* normals : {&mesh.normals, &mesh.corner_normals})
     for (glm::vec3& normal : *normals) normal = unit_or_zero(normal);

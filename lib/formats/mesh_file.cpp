@@ -94,6 +94,7 @@ TriMesh read_any(const std::filesystem::path& file, MeshSource* source, const Me
     throw InputError(file.string(), "", describe_growth(n, "triangles", most));
   if (source != nullptr) source->hash = hash_hex(bytes);
   check_mesh(mesh, file.string());
+  fill_colors(mesh, remarks);
   normalize_normals(mesh, remarks);
   return mesh;
 }

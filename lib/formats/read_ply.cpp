@@ -9,6 +9,7 @@
 #include "base/srgb.h"
 #include "formats/color_range.h"
 #include "formats/face_list.h"
+#include "formats/format_number.h"
 #include "formats/ply.h"
 #include "formats/readers.h"
 #include "formats/text_cursor.h"
@@ -127,7 +128,8 @@ ColorColumns read_channels(const PlyDocument& ply, const Names& names) {
   double most = 0;
   for (std::size_t k = 0; k < 3; ++k) {
     out.channels[k] = read_channel(ply, *find_small(ply, "vertex", names[k]));
-    for (const double value : out.channels[k]) most = std::max(most, value);  // not NaN
+    for (const double value : out.channels[k])
+      if (value <= std::numeric_limits<float>::max()) most = std::max(most, value);
   }
   const PlyType type = find_small(ply, "vertex", names[0])->type();
   const bool is_byte = type == PlyType::kInt8 || type == PlyType::kUint8;
@@ -154,6 +156,12 @@ std::size_t count_translucent(const PlyDocument& ply) {
   return 0;
 }
 
+// A channel that is no number stays none: fill_colors().
+float decode_channel(double value, double full) {
+  return std::isnan(value) ? std::numeric_limits<float>::quiet_NaN()
+                           : srgb_decode(static_cast<float>(value / full));
+}
+
 std::vector<glm::vec3> read_colors(const PlyDocument& ply, Remarks* remarks) {
   static constexpr Names kNames[] = {
       {"red", "green", "blue"}, {"r", "g", "b"}, {"diffuse_red", "diffuse_green", "diffuse_blue"}};
@@ -167,11 +175,9 @@ std::vector<glm::vec3> read_colors(const PlyDocument& ply, Remarks* remarks) {
     std::vector<glm::vec3> colors(channels[0].size());
     for (std::size_t k = 0; k < 3; ++k)
       for (std::size_t v = 0; v < colors.size(); ++v)
-        colors[v][static_cast<int>(k)] = srgb_decode(static_cast<float>(channels[k][v] / full));
+        colors[v][static_cast<int>(k)] = decode_channel(channels[k][v], full);
     if (is_guessed)
-      add_remark(remarks,
-                 "colours, taken as 0 to " + std::to_string(static_cast<std::uint64_t>(full)),
-                 colors.size());
+      add_remark(remarks, "colours, taken as 0 to " + format_number(full), colors.size());
     add_remark(remarks, "vertices that are not opaque: alpha is passed over",
                count_translucent(ply));
     return colors;

@@ -41,9 +41,12 @@ TriMesh parse_3ds(std::string_view bytes, const std::filesystem::path& file,
 /// refused as it comes: meshes do not compress that well.
 std::string gunzip(std::string_view bytes, const std::filesystem::path& file);
 
-/// What every reader's result must be: finite numbers (but for normals), indices in range,
-/// attribute arrays of the right length. Throws InputError naming the vertex or triangle.
+/// What every reader's result must be: finite numbers (but for normals and colours), indices in
+/// range, attribute arrays of the right length. Throws InputError naming the vertex or triangle.
 void check_mesh(const TriMesh& mesh, const std::string& file);
+
+/// Colours that are no numbers become white, as where a file gives none.
+void fill_colors(TriMesh& mesh, Remarks* remarks);
 
 /// Normals of unit length. Where one is zero or not finite it is computed from the triangles around
 /// its vertex (make_vertex_normals). Normals of corners become normals of vertices where all

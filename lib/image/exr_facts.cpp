@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "image/exr_attributes.h"
 #include "image/picture_facts.h"
 
 // Follows: "OpenEXR File Layout" (openexr.com), format version 2. OpenEXR makes room for whatever
@@ -28,9 +29,11 @@ ExrPart walk_part(std::string_view all, std::size_t& i) {
   for (std::size_t name = name_length(all, i); name > 0; name = name_length(all, i)) {
     const std::string_view key = all.substr(i, name);
     const std::size_t at_type = i + name + 1;
-    const std::size_t at_size = at_type + name_length(all, at_type) + 1;
+    const std::size_t n_type = name_length(all, at_type);
+    const std::size_t at_size = at_type + n_type + 1;
     const std::size_t at = at_size + 4, size = bytes.le32(at_size);
     if (at > all.size() || size > all.size() - at) return part;
+    if (!is_sound_exr_attribute(all.substr(at_type, n_type), all.substr(at, size))) return part;
     if (key == "dataWindow" && size == 16) {
       const auto side = [&](std::size_t lo, std::size_t hi) {
         return static_cast<long long>(static_cast<std::int32_t>(bytes.le32(at + hi))) -

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "image/exr_attributes.h"
 #include "image/header.h"
 
 // Follows: "OpenEXR File Layout" (openexr.com), format version 2. Little-endian throughout.
@@ -55,6 +56,12 @@ class Reader {
     }
     return text;
   }
+  std::string text(std::uint64_t n_bytes) {
+    if (n_bytes > left()) fail("the file ends in its header");
+    std::string bytes(n_bytes, '\0');
+    read(bytes.data(), n_bytes);
+    return bytes;
+  }
   void skip(std::uint64_t n_bytes) {
     if (n_bytes > left()) fail("the file ends in its header");
     seek(position_ + n_bytes);
@@ -85,18 +92,19 @@ struct PartHeader {
 };
 
 void read_attribute(Reader& reader, const std::string& name, PartHeader& part) {
-  reader.string();  // the type
+  const std::string type = reader.string();
   const auto n_bytes = reader.number<std::int32_t>();
   if (n_bytes < 0) reader.fail("attribute '" + name + "' has a negative size");
+  const std::string value = reader.text(static_cast<std::uint64_t>(n_bytes));
+  if (!is_sound_exr_attribute(type, value))
+    reader.fail("attribute '" + name + "' is no sound '" + type + "'");
   if (name == "dataWindow" && n_bytes == 16) {
-    reader.read(part.window.data(), 16);
+    std::memcpy(part.window.data(), value.data(), 16);
     part.has_window = true;
   } else if (name == "chunkCount" && n_bytes == 4) {
-    part.n_chunks = reader.number<std::int32_t>();
+    std::memcpy(&part.n_chunks, value.data(), 4);
   } else if (name == "compression" && n_bytes == 1) {
-    part.compression = reader.number<std::uint8_t>();
-  } else {
-    reader.skip(static_cast<std::uint64_t>(n_bytes));
+    part.compression = static_cast<unsigned char>(value[0]);
   }
 }
 

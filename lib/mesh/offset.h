@@ -7,6 +7,9 @@
 
 namespace viewcell {
 
+/// No coordinate of an offset is larger: a vertex' place is within floats, an offset near it.
+inline constexpr double kMostOffset = 0x1p128;
+
 /// Zero while the step between floats as large as the box's largest coordinate is at most 2^-18 of
 /// the box's longest side: for every mesh nearer to the origin than some 32 of its sizes; and for a
 /// point that floats hold. Otherwise, for each axis on which coordinates are above 8 longest sides,

@@ -4,6 +4,7 @@
 
 #include "base/json.h"
 #include "base/section_file.h"
+#include "mesh/offset.h"
 
 namespace viewcell {
 namespace {
@@ -17,6 +18,28 @@ void check_finite(const SectionReader& reader, const char* tag, const std::vecto
   for (const Vec& v : values)
     for (int k = 0; k < Vec::length(); ++k)
       if (!std::isfinite(v[k])) reader.fail(tag, "has a number that is not finite");
+}
+
+// As TriMesh has them.
+void check_normals(const SectionReader& reader, const char* tag,
+                   const std::vector<glm::vec3>& normals) {
+  constexpr double kUnitSlack = 1e-3;  // rounded, and perhaps by another program
+  for (const glm::vec3& n : normals)
+    if (!(std::abs(glm::length(glm::dvec3(n)) - 1) <= kUnitSlack))
+      reader.fail(tag, "has a normal that is not of unit length");
+}
+
+void check_colors(const SectionReader& reader, const std::vector<glm::vec3>& colors) {
+  for (const glm::vec3& c : colors)
+    for (int k = 0; k < 3; ++k)
+      if (!(c[k] >= 0 && c[k] <= 1))
+        reader.fail("COLORS", "has a colour that is not within 0 to 1");
+}
+
+void check_costs(const SectionReader& reader, const std::vector<VertexSplit>& splits) {
+  for (const VertexSplit& split : splits)
+    if (std::isnan(split.cost) || std::isnan(split.error))
+      reader.fail("SPLITS", "has a cost or an error that is no number");
 }
 
 }  // namespace
@@ -66,7 +89,7 @@ ProgressiveRecord read_pm(const std::filesystem::path& file) {
   read_names("material_names", a.material_names);
   if (info.has("material_libraries")) read_names("material_libraries", a.material_libraries);
   if (info.has("offset")) {
-    const std::vector<double> offset = info.at("offset").numbers(3);
+    const std::vector<double> offset = info.at("offset").numbers(3, -kMostOffset, kMostOffset);
     a.offset = {offset[0], offset[1], offset[2]};
   }
   if (json.contains("made_by") && !json["made_by"].is_null()) r.made_by = json["made_by"].dump();
@@ -87,12 +110,13 @@ ProgressiveRecord read_pm(const std::filesystem::path& file) {
   reader.read("OLDPLACE", r.parent_positions);
   reader.read("OLDTEX", r.parent_texcoords);
   check_finite(reader, "POSITION", a.positions);
-  check_finite(reader, "NORMALS", a.normals);
-  check_finite(reader, "COLORS", a.colors);
-  check_finite(reader, "WNORMALS", r.wedge_normals);
+  check_normals(reader, "NORMALS", a.normals);
+  check_normals(reader, "WNORMALS", r.wedge_normals);
+  check_colors(reader, a.colors);
   check_finite(reader, "TEXCOORD", r.texcoords);
   check_finite(reader, "OLDPLACE", r.parent_positions);
   check_finite(reader, "OLDTEX", r.parent_texcoords);
+  check_costs(reader, r.splits);
   if (a.positions.empty() || r.faces.empty()) reader.fail("FACES", "holds no mesh");
   if (const std::string wrong = check_record(r); !wrong.empty()) reader.fail("SPLITS", wrong);
   if (count_vanishing_pieces(r) > 0 && json["version"] == kVersion)

@@ -101,7 +101,8 @@ std::vector<double> measure_levels(const EdgeTable& edges, const std::vector<dou
   for (const std::uint32_t face : component)
     if (face == farthest || is_at_border(edges, face)) queue.push({distance[face], face});
   while (!queue.empty()) {
-    const auto [d, face] = queue.top();
+    const double d = queue.top().first;  // no binding: clang 14 does not capture those
+    const std::uint32_t face = queue.top().second;
     queue.pop();
     if (level[face] >= 0) continue;
     level[face] = d;

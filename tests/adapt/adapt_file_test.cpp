@@ -134,6 +134,7 @@ TEST(AdaptFile, NumbersOutOfRangeAreRefused) {
       {"one chart a face", [](auto& log) { log.charts.pop_back(); }},
       {"one chart a face", [](auto& log) { log.charts.push_back(0); }},
       {"names a chart", [](auto& log) { log.charts[3] = 1; }},
+      {"more charts than faces", [](auto& log) { log.n_charts = log.charts.size() + 1; }},
       {"or no number", [&](auto& log) { log.points[1].before.x = nan; }},
       {"or no number", [&](auto& log) { log.points[1].before.y = nan; }},
       {"or no number", [&](auto& log) { log.points[1].after.x = nan; }},

@@ -2,8 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 #include "common/expect_input_error.h"
+#include "common/temporary_folder.h"
 #include "gltf_builder.h"
 
 namespace viewcell {
@@ -89,6 +91,18 @@ TEST(GltfAttributes, Colours) {
   expect_colors<std::uint16_t>(65535, true);
   expect_colors<float>(1, false);
   expect_colors<std::uint8_t>(255, false);
+}
+
+// White, as in files without colours, and counted.
+TEST(GltfAttributes, ColoursThatAreNoNumbers) {
+  GltfBuilder file = one_triangle();
+  const float none = std::numeric_limits<float>::quiet_NaN();
+  file.attributes()["COLOR_0"] = file.add<float>({none, 0, 0, 1, 0, 0, 0, 2, -1}, "VEC3");
+  const TemporaryFolder folder;
+  MeshSource source;
+  const TriMesh mesh = read_mesh(folder.add("m.glb", file.bytes()), &source);
+  EXPECT_EQ(mesh.colors, (std::vector<glm::vec3>{{1, 1, 1}, {1, 0, 0}, {0, 1, 0}}));
+  EXPECT_EQ(count_said(source.remarks, "colours that are no numbers"), 1u);
 }
 
 // Triangle with texture coordinates (0, 0), (1, 0), (0, 1) of v down, in the set, under a material

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <limits>
 
 #include "base/srgb.h"
 #include "common/expect_input_error.h"
@@ -272,6 +273,20 @@ TEST(PlyVariants, WhatIsPassedOverOfColoursIsSaid) {
   EXPECT_EQ(count_of(remarks, "faces with colours of their own"), 2u);
 }
 
+// A square, of binary floats; more: what each vertex has behind its position.
+std::string binary_square(const std::string& columns, const std::vector<float>& more) {
+  std::string out = replaced(kHead, "ascii", "binary_little_endian") + columns + kFaces;
+  for (const glm::vec3& p : {glm::vec3(0, 0, 0), {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}) {
+    append_vec3(out, p);
+    for (const float x : more) append_value(out, x);
+  }
+  for (const Triangle& t : {Triangle{0, 1, 2}, {0, 2, 3}}) {
+    append_value<std::uint8_t>(out, 3);
+    for (const std::uint32_t v : t) append_value(out, static_cast<std::int32_t>(v));
+  }
+  return out;
+}
+
 // Normals that are no numbers, in text and in binary, are computed; columns that nobody reads may
 // hold anything.
 TEST(PlyVariants, NormalsThatAreNoNumbers) {
@@ -287,6 +302,27 @@ TEST(PlyVariants, NormalsThatAreNoNumbers) {
   EXPECT_INPUT_ERROR(
       read_bytes("m.ply", kHead + kFaces + "0 0 0\n1 nan 0\n1 1 0\n0 1 0\n" + kFaceRows),
       "vertex 1: property 'y' is not a finite number");
+}
+
+// White, as where there are none, and counted; what is infinite is as bright as can be.
+TEST(PlyVariants, ColoursThatAreNoNumbers) {
+  const std::string columns = "property float red\nproperty float green\nproperty float blue\n";
+  const auto [mesh, remarks] = read_bytes(
+      "m.ply", kHead + columns + kFaces + "0 0 0 nan 0 0\n1 0 0 1 0 -nan\n1 1 0 1 0 0\n" +
+                   "0 1 0 0 1 0\n" + kFaceRows);
+  EXPECT_EQ(mesh.colors, (std::vector<glm::vec3>{{1, 1, 1}, {1, 1, 1}, {1, 0, 0}, {0, 1, 0}}));
+  EXPECT_EQ(count_of(remarks, "colours that are no numbers, taken as white"), 2u);
+  const auto [bright, none] =
+      read_bytes("m.ply", binary_square(columns, {std::numeric_limits<float>::infinity(), 0, 1}));
+  EXPECT_EQ(bright.colors, (std::vector<glm::vec3>(4, {1, 0, 1})));
+  EXPECT_EQ(count_of(none, "colours that are no numbers"), 0u);
+}
+
+TEST(PlyVariants, ColoursOfAnyRange) {
+  const std::string columns = "property float red\nproperty float green\nproperty float blue\n";
+  const auto [mesh, remarks] = read_bytes("m.ply", binary_square(columns, {1e30f, 0, 1e30f}));
+  EXPECT_EQ(mesh.colors, (std::vector<glm::vec3>(4, {1, 0, 1})));
+  EXPECT_EQ(count_of(remarks, "colours, taken as 0 to 1.000000015e+30"), 4u);
 }
 
 // ---- faces ----

@@ -270,5 +270,14 @@ TEST(FarMesh, FloatsStayWhatTheyAre) {
   EXPECT_EQ(corners_of(far), corners_of(cube));
 }
 
+// As far as floats reach: what is written there is read again.
+TEST(WriteMesh, AtTheEndOfFloats) {
+  TriMesh mesh = make_cube();
+  for (glm::vec3& p : mesh.positions) p *= 0x1p99f;
+  mesh.offset = {0x1p127, -0x1p127, 0x1p120};
+  for (const std::string& ending : kWrittenEndings)
+    EXPECT_EQ(corners_of(write_and_read(mesh, ending).mesh), corners_of(mesh)) << ending;
+}
+
 }  // namespace
 }  // namespace viewcell

@@ -12,6 +12,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/random.h"
+#include "common/mutate.h"
 #include "common/same_every_time.h"
 #include "common/temporary_folder.h"
 #include "image/half.h"
@@ -201,6 +202,22 @@ TEST(CaptureFileTest, CorruptFilesReadOrAreRefused) {
     put_bytes(folder / "bad.exr", bad);
     error_of_capture(folder / "bad.exr");
   }
+}
+
+// Or OpenEXR takes what follows for sizes, and OpenImageIO ends the program.
+TEST(CaptureFileTest, AttributesAreAsTheirTypesAsk) {
+  using namespace std::string_literals;
+  const TemporaryFolder folder;
+  Random random(1);
+  write_capture_file(folder / "c.exr", {random_part("a", 0, 0, 8, 8, random)}, {});
+  const std::string bytes = read_file(folder / "c.exr");
+  const auto refused = [&](const std::string& from, const std::string& to, const char* message) {
+    put_bytes(folder / "bad.exr", replaced(bytes, from, to));
+    EXPECT_NE(error_of_capture(folder / "bad.exr").find(message), std::string::npos) << from;
+  };
+  refused("\0A\0\x01\0"s, "\0A\0\x03\0"s, "attribute 'channels' is no sound 'chlist'");
+  refused("float\0\x04\0"s, "float\0\0\0"s, "is no sound 'float'");
+  refused("m44f\0\x40\0"s, "m44f\0\x3c\0"s, "is no sound 'm44f'");
 }
 
 TEST(CaptureFileTest, AbsurdWindowsAndPartsAreRefusedBeforeAnythingIsAllocated) {

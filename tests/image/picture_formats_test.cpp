@@ -8,6 +8,7 @@
 
 #include "base/file.h"
 #include "common/expect_input_error.h"
+#include "common/mutate.h"
 #include "common/temporary_folder.h"
 #include "image/io.h"
 
@@ -332,6 +333,35 @@ TEST(PictureBombs, ExrHeaders) {
   bad.replace(window + 8, 8, le32(0) + le32(0x7ffffff0));
   EXPECT_INPUT_ERROR(decode(bad), "1 x 2147483633 pixels");
   EXPECT_LT(costs_now().memory_kib - before.memory_kib, 32 * 1024);
+}
+
+// OpenEXR goes by an attribute's type, not by its size, and what it then takes for sizes it makes
+// room for; at channels of an unknown kind OpenImageIO ends the program.
+TEST(PictureBombs, ExrAttributesAreAsTheirTypesAsk) {
+  using namespace std::string_literals;
+  const TemporaryFolder folder;
+  const auto file = (folder / "a.exr").string();
+  const auto output = OIIO::ImageOutput::create(file);
+  OIIO::ImageSpec spec(4, 4, 3, OIIO::TypeHalf);
+  const std::string words[] = {"one", "two"};
+  spec.attribute("words", OIIO::TypeDesc(OIIO::TypeDesc::STRING, 2), words);
+  ASSERT_TRUE(output->open(file, spec));
+  const std::vector<std::uint8_t> samples(48);
+  ASSERT_TRUE(output->write_image(OIIO::TypeUInt8, samples.data()));
+  output->close();
+  const std::string good = read_file(file);
+  EXPECT_EQ(decode(good).width_px, 4);
+  const auto refused = [&](const std::string& from, const std::string& to) {
+    SCOPED_TRACE(from);
+    EXPECT_INPUT_ERROR(decode(replaced(good, from, to)), "malformed or cut openexr");
+  };
+  refused("float\0\x04\0\0\0"s, "float\0\0\0\0\0"s);
+  refused("float\0\x04\0\0\0"s, "v2f\0\x04\0\0\0"s);
+  refused("box2i\0\x10\0\0\0"s, "box2i\0\x0f\0\0\0"s);
+  refused("B\0\x01\0\0\0"s, "B\0\x03\0\0\0"s);
+  refused("B\0\x01\0\0\0\0\0\0\0\x01\0"s, "B\0\x01\0\0\0\0\0\0\0\0\0"s);
+  refused("chlist\0\x37\0"s, "chlist\0\x36\0"s);
+  refused("stringvector\0\x0e\0\0\0\x03\0"s, "stringvector\0\x0e\0\0\0\x03\x7f"s);
 }
 
 // A plain picture is small, and true.

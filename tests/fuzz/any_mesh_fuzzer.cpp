@@ -1,0 +1,8 @@
+// Meshes that are told apart by what they hold, gzipped ones among them.
+#include "fuzz.h"
+#include "mesh_laws.h"
+
+int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t n_bytes) {
+  viewcell::fuzz_mesh_reader("in", viewcell::view_of(data, n_bytes));
+  return 0;
+}

@@ -1,0 +1,3 @@
+#include "mutators.h"
+
+VIEWCELL_FUZZ_MUTATOR(mutate_glb)

@@ -1,0 +1,8 @@
+// STL, text and binary.
+#include "fuzz.h"
+#include "mesh_laws.h"
+
+int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t n_bytes) {
+  viewcell::fuzz_mesh_reader("in.stl", viewcell::view_of(data, n_bytes));
+  return 0;
+}
