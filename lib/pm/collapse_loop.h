@@ -60,6 +60,7 @@ inline Refusal as_refusal(Refusal refusal) {
 /// Where pieces (parts that neither edges nor vertices join) may vanish whole, which they do as
 /// soon as no collapse costs less:
 /// - float vanish_cost(): of the next piece; infinity: there is none;
+/// - bool may_vanish(is_last): whether it may go by now; is_last: no collapse is left;
 /// - Refusal check_vanish(): a last check; what is refused is not next any more;
 /// - std::span<const uint32_t> vanishing(): the triangles of the piece checked last;
 /// - float vanished(v, trace): called after they are gone, v one of the vertices; returns the cost.
@@ -180,10 +181,11 @@ class CollapseLoop {
     return metric_.cost(u, v);
   }
 
-  bool vanishes_next(float max_cost) const {
+  bool vanishes_next(float max_cost) {
     if constexpr (kVanishes) {
       const float cost = metric_.vanish_cost();
-      return cost < kNever && cost <= max_cost && (heap_.empty() || cost <= heap_.key(heap_.top()));
+      return cost < kNever && cost <= max_cost &&
+             (heap_.empty() || cost <= heap_.key(heap_.top())) && metric_.may_vanish(heap_.empty());
     }
     return false;
   }

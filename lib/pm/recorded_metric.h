@@ -128,6 +128,7 @@ struct RecordedMetric {
     return std::max(reach, guard->vanished_reach()) <= error_bound ? Refusal::none : Refusal::bound;
   }
   float vanish_cost() const { return pieces.cost(); }
+  bool may_vanish(bool is_last) { return pieces.is_small(mesh, is_last); }
   std::span<const std::uint32_t> vanishing() const { return live_faces; }
   Refusal check_vanish() {
     const Refusal refusal = find_vanish_refusal();

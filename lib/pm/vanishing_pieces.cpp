@@ -63,6 +63,14 @@ void VanishingPieces::set_cost() {
   cost_ = at_ < order_.size() ? costs_[order_[at_]] : std::numeric_limits<float>::infinity();
 }
 
+bool VanishingPieces::is_small(const CollapseMesh& mesh, bool is_last) {
+  const std::size_t n = mesh.n_triangles();
+  if (n_when_large_ > 0 && !is_last && 10 * n > 9 * n_when_large_) return false;
+  const bool out = live_faces(mesh).size() <= std::max(kFewFaces, n / 10);
+  n_when_large_ = out ? 0 : n;
+  return out;
+}
+
 std::span<const std::uint32_t> VanishingPieces::live_faces(const CollapseMesh& mesh) {
   live_.clear();
   for (const std::uint32_t f : faces())

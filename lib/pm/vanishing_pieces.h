@@ -25,7 +25,8 @@ struct VanishOptions {
 };
 
 /// Cheapest first, the lower number of equal ones. The one that costs most never vanishes, so some
-/// piece is left.
+/// piece is left. One that has many faces left waits, and with it those that cost more: no level
+/// loses more than a tenth of its faces at once, or kFewFaces.
 class VanishingPieces {
  public:
   /// None ever vanishes.
@@ -36,6 +37,10 @@ class VanishingPieces {
 
   /// Of the next piece; infinity: there is none.
   float cost() const { return cost_; }
+  static constexpr std::size_t kFewFaces = 64;
+  /// Whether the next piece has few enough live faces. Asked again before the mesh has lost a tenth
+  /// of its triangles, a no is repeated unless is_last. O(faces that the piece had at first).
+  bool is_small(const CollapseMesh& mesh, bool is_last);
   /// The faces that it had at first.
   std::span<const std::uint32_t> faces() const { return faces_.of(order_[at_]); }
   /// Those that live, copies too.
@@ -49,7 +54,7 @@ class VanishingPieces {
   Buckets<std::uint32_t> faces_;  // by piece
   std::vector<float> costs_;      // by piece
   std::vector<std::uint32_t> order_, live_;
-  std::size_t at_ = 0;
+  std::size_t at_ = 0, n_when_large_ = 0;
   float cost_ = std::numeric_limits<float>::infinity();
 };
 

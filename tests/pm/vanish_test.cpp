@@ -341,5 +341,22 @@ TEST(Vanish, WrongNumbersAreRefusedOrHarmless) {
   EXPECT_GT(n_refused, 200);
 }
 
+// A figure whose charts hold every collapse back, on a large plate: it does not go at one blow.
+TEST(Vanish, WhatIsStuckStays) {
+  TriMesh mesh;
+  add(mesh, make_noisy_sphere(3, 0.1, 4), {0, 0, 0});
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    for (int k = 0; k < 3; ++k) mesh.texcoords.emplace_back(3 * t + (k == 1), k == 2);
+  add(mesh, make_flat_grid(1), {-50, -50, -2}, 100);
+  for (int c = 0; c < 6; ++c) mesh.texcoords.emplace_back(0.1f * c, 0.01f * c * c);
+  for (const MetricKind metric : {MetricKind::qem3, MetricKind::qem5}) {
+    BuildOptions options;
+    options.metric = metric;
+    const BuildResult built = build_progressive_mesh(mesh, options);
+    EXPECT_EQ(built.counts.n_vanished, 0u);
+    EXPECT_GE(ProgressiveMesh(built.record).n_faces(), 512u);
+  }
+}
+
 }  // namespace
 }  // namespace viewcell
