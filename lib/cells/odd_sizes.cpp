@@ -19,7 +19,7 @@ struct OddObjects {
 
 std::string odd_number(double x) {
   char text[40];
-  std::snprintf(text, sizeof text, "%.3g", x);
+  std::snprintf(text, sizeof text, x < 1000 || x > 1e15 ? "%.3g" : "%.0f", x);
   return text;
 }
 

@@ -139,7 +139,8 @@ void remark_pair(const DeepImage& a, const DeepImage& b, NamedDistance& pair) {
   }
   add_remark(&pair.of_tested, "pixels that are not finite in one picture or both, left out",
              d.n_not_finite);
-  add_remark(&pair.of_tested, "pixels whose alpha differs, which no figure counts",
+  add_remark(&pair.of_tested,
+             "pixels whose alpha differs: no figure counts alpha, their colours count",
              d.n_alpha_differs);
 }
 

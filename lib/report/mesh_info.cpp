@@ -97,7 +97,7 @@ void suggest_scene(MeshInfo& info) {
   const glm::dvec3 size = info.box.size();
   const double height = info.up == "y" ? size.y : size.z;
   const double used = height > 0 ? height : std::max({size.x, size.y, size.z});
-  const bool fits = used >= kSceneHeight / 4 && used <= kSceneHeight * 4;
+  const bool fits = used >= kSceneHeight / 2 && used <= kSceneHeight * 2;
   if (used > 0 && !fits) info.scale = round_to_two_digits(kSceneHeight / used);
 }
 

@@ -81,16 +81,16 @@ TEST(MeshInfo, PartsBordersAndTurns) {
 
 TEST(MeshInfo, SizeForAScene) {
   const TemporaryFolder folder;
-  for (const double height : {1.0, 0.0517, 40.0, 150.0, 1720.0, 25000.0}) {
+  for (const double height : {1.0, 0.0517, 40.0, 75.0, 150.0, 1720.0, 25000.0}) {
     SCOPED_TRACE(height);
     TriMesh mesh = plain_cube();
     const double a = side_of(mesh);
     for (glm::vec3& p : mesh.positions) p *= static_cast<float>(height / a);
     const MeshInfo info = info_of(folder, mesh);
     const double scaled = info.scale * height;
-    EXPECT_GE(scaled, 10);
-    EXPECT_LE(scaled, 160);
-    if (height >= 10 && height <= 160) {
+    EXPECT_GE(scaled, 20);
+    EXPECT_LE(scaled, 80);
+    if (height >= 20 && height <= 80) {
       EXPECT_EQ(info.scale, 1);
     }
     EXPECT_EQ(info.up, "z");

@@ -55,7 +55,9 @@ int run(Tool& tool, const Options& options) {
       tool, {{"size", options.size}, {"eye_height", options.eye_height}}, {{"scene", scene.hash}});
   if (!options.svg_file.empty()) {
     CameraPath path;
-    if (!options.path_file.empty()) path = read_path(options.path_file);
+    Remarks remarks;
+    if (!options.path_file.empty()) path = read_path(options.path_file, &remarks);
+    tool.remark(options.path_file, remarks);
     write_file(options.svg_file,
                draw_map(scene, cells, options.path_file.empty() ? nullptr : &path));
   }

@@ -25,9 +25,10 @@ void declare_surface(Command& command, MeshshotArguments& o) {
           "given here")
       .reads("the texture that is read", texture_file);
   command
-      .add_option(
-          "--normal-map", &o.normal_map,
-          "tangent-space normal map for the same coordinates, named as a texture is: lights relief")
+      .add_option("--normal-map", &o.normal_map,
+                  "tangent-space normal map for the same coordinates, a file or model.glb#normal "
+                  "(of a model "
+                  "alone its #normal): lights relief")
       .reads("the normal map that is read", texture_file);
   command
       .add_option("--normal-map-y", &o.normal_map_y,
@@ -113,6 +114,7 @@ void finish_arguments(Tool& tool, MeshshotArguments& o) {
   if (!o.map_file.empty() && o.texture.empty() && o.normal_map.empty())
     throw UsageError("--index-map requires --texture or --normal-map");
   if (!o.box.empty()) parse_box(o.box);
+  if (o.normal_map.ends_with(".glb") || o.normal_map.ends_with(".gltf")) o.normal_map += "#normal";
   parse_gl_engine(o.gl);
   o.style.lit = !o.unlit;
   o.style.light_follows = !o.fixed_light;

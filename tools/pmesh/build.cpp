@@ -109,10 +109,12 @@ void remark_charts(const Tool& tool, const PmeshArguments& a, const TriMesh& mes
                    const CollapseCounts& counts, std::size_t n_base) {
   constexpr std::size_t kMuch = 10;     // a tenth of the faces is left
   constexpr std::size_t kFewFaces = 4;  // a chart
-  if (mesh.texcoords.empty() || n_base * kMuch <= mesh.triangles.size() ||
-      n_base <= a.build.target_faces)
+  constexpr std::size_t kHundreds = 200;
+  if (mesh.texcoords.empty() || n_base <= a.build.target_faces || std::isfinite(a.build.max_cost) ||
+      a.bounded)
     return;
   const std::size_t n_charts = find_charts(mesh).size();
+  if (n_base * kMuch <= mesh.triangles.size() && n_charts < kHundreds) return;
   const std::size_t by_chart = counts.n_refused[static_cast<std::size_t>(Refusal::chart)];
   const std::size_t all =
       std::accumulate(counts.n_refused.begin() + 1, counts.n_refused.end(), std::size_t{0});

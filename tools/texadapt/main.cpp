@@ -1,4 +1,5 @@
 // texadapt: a texture that follows the collapses of a progressive mesh, for levels of it.
+#include <algorithm>
 #include <cstdio>
 
 #include "texadapt/advice.h"
@@ -12,9 +13,27 @@ Json make_report(const Tool& tool, const TexadaptArguments& a, const TexadaptInp
   return a.engine == AdaptEngine::rebake ? rebake_levels(tool, a, in) : adapt_levels(tool, a, in);
 }
 
+// Pieces that are missing in levels, said of the coarsest.
+void count_vanished(const Tool& tool, const TexadaptArguments& a, const TexadaptInputs& in,
+                    Json& report) {
+  if (count_vanishing_pieces(in.record) == 0) return;
+  ProgressiveMesh mesh = make_finest(in.record);
+  std::size_t most = 0;
+  for (std::size_t i = 0; i < a.levels.size(); ++i) {
+    mesh.set_faces(a.levels[i]);
+    report["levels"][i]["pieces_vanished"] = mesh.n_vanished();
+    most = std::max(most, mesh.n_vanished());
+  }
+  Remarks remarks;
+  add_remark(&remarks,
+             "pieces have vanished whole at the coarsest level (pmesh build --keep-pieces)", most);
+  tool.remark(a.pm, remarks);
+}
+
 int run(const Tool& tool, TexadaptArguments& a) {
   const TexadaptInputs in = read_inputs(tool, a);
-  const Json report = make_report(tool, a, in);
+  Json report = make_report(tool, a, in);
+  if (a.onto.empty()) count_vanished(tool, a, in, report);
   tool.remark(a.texture, in.shown.remarks);
   if (!in.charts.empty()) tool.say(in.charts);
   tool.report(report);
