@@ -343,7 +343,7 @@ TEST(PictureBombs, ExrAttributesAreAsTheirTypesAsk) {
   const auto file = (folder / "a.exr").string();
   const auto output = OIIO::ImageOutput::create(file);
   OIIO::ImageSpec spec(4, 4, 3, OIIO::TypeHalf);
-  const std::string words[] = {"one", "two"};
+  const char* const words[] = {"one", "two"};
   spec.attribute("words", OIIO::TypeDesc(OIIO::TypeDesc::STRING, 2), words);
   ASSERT_TRUE(output->open(file, spec));
   const std::vector<std::uint8_t> samples(48);
