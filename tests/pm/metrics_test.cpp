@@ -253,7 +253,7 @@ TEST(TextureQemFull, BorderPlacesAreTheLeastOfTheEdge) {
                                  wedges.texcoords, {});
   int n_inside = 0, n_borders = 0;
   for (const Triangle& t : wedges.vertex_triangles()) {
-    const std::uint32_t u = t[0], v = t[1], w = t[2];  // no binding: clang 14 captures none
+    const std::uint32_t u = t[0], v = t[1];  // no binding: clang 14 captures none
     if (!table.match(work, u, v) || !table.match_both(work, v) || table.pairs().size() != 2)
       continue;
     ++n_borders;
