@@ -55,7 +55,7 @@ AttributeCost::AttributeCost(const WedgeMesh& mesh, std::span<const glm::vec3> p
                              std::span<const Triangle> triangles,
                              std::span<const glm::vec3> colours,
                              const AttributeCostOptions& options)
-    : centre_(box_centre(positions)), scale_(options.scale) {
+    : centre_(box_centre(positions)), scale_(options.scale), fourth_root_(options.fourth_root) {
   if (!mesh.region_vertex.empty()) add_borders(mesh, positions, triangles, options);
   const auto differ = [&](const glm::vec3& c) { return c != colours[0]; };
   if (options.colours && std::any_of(colours.begin(), colours.end(), differ))
@@ -113,15 +113,19 @@ void AttributeCost::add_colours(const WedgeMesh& mesh, std::span<const glm::vec3
   }
 }
 
+double AttributeCost::square_of_cost(double value, double weight) const {
+  if (fourth_root_) return std::sqrt(std::max(value, 0.0));
+  const double cost = scale_.cost(value, weight);
+  return cost * cost;
+}
+
 float AttributeCost::cost(const WedgeTable& table, std::uint32_t u, std::uint32_t v,
                           const glm::vec3& position) const {
   const glm::dvec3 p = glm::dvec3(position) - centre_;
   double squares = 0;
-  if (!borders_.empty()) {
-    const double value = borders_[u].value(p) + borders_[v].value(p);
-    const float cost = scale_.cost(value, borders_[u].weight + borders_[v].weight);
-    squares += double{cost} * cost;
-  }
+  if (!borders_.empty())
+    squares += square_of_cost(borders_[u].value(p) + borders_[v].value(p),
+                              borders_[u].weight + borders_[v].weight);
   if (quadrics_.empty()) return static_cast<float>(std::sqrt(squares));
   double value = 0, weight = 0;
   for (const auto& [from, to] : table.chart_pairs()) {
@@ -131,8 +135,7 @@ float AttributeCost::cost(const WedgeTable& table, std::uint32_t u, std::uint32_
       weight += quadrics_[i].weight;
     }
   }
-  const float cost = scale_.cost(value, weight);
-  return static_cast<float>(std::sqrt(squares + double{cost} * cost));
+  return static_cast<float>(std::sqrt(squares + square_of_cost(value, weight)));
 }
 
 void AttributeCost::merge(const WedgeTable& table, std::uint32_t u, std::uint32_t v) {

@@ -17,6 +17,9 @@ struct AttributeCostOptions {
   double colour_weight = 0.05;
   double boundary_weight = 10;  ///< of borders, as QemOptions has it
   QuadricScale scale = {};
+  /// Instead of by scale: the fourth root of the sum (an area times a squared length), for metrics
+  /// whose costs are lengths and no means.
+  bool fourth_root = false;
 };
 
 /// Of a linear function of position for each of three channels: value(p, s) = sum over faces of
@@ -64,12 +67,14 @@ class AttributeCost {
   void add_colours(const WedgeMesh& mesh, std::span<const glm::vec3> positions,
                    std::span<const Triangle> triangles, std::span<const glm::vec3> colours,
                    const AttributeCostOptions& options);
+  double square_of_cost(double value, double weight) const;
   std::size_t slot(const WedgeTable& table, std::uint32_t wedge, std::uint32_t vertex) const {
     return table.has_charts() ? table.chart_vertex(wedge) : vertex;
   }
 
   glm::dvec3 centre_;
   QuadricScale scale_;
+  bool fourth_root_ = false;
   LargeVector<Quadric> borders_;         // by vertex; or empty
   LargeVector<ColourQuadric> quadrics_;  // by chart vertex, without charts by vertex; or empty
   std::vector<glm::vec3> colours_;       // likewise, scaled

@@ -65,7 +65,7 @@ CollapseCounts collapse_all(CollapseMesh& mesh, Metric& metric, Recorder& record
                             const Units& units, const BuildOptions& options,
                             const Progress& progress) {
   constexpr std::size_t kSlices = 100;
-  constexpr std::size_t kTail = 10;  // what is left may be looked at again: a tenth
+  constexpr std::size_t kTail = 4;  // what is left may be looked at again: a quarter
   RecordedMetric<Metric> recorded{mesh,
                                   metric,
                                   recorder,
@@ -192,9 +192,9 @@ AttributeCost make_attribute_cost(const WedgeMesh& wedges, const std::vector<Tri
   out.borders = is_quadric || options.metric == MetricKind::lt;
   out.colours = !options.ignore_colours;
   out.boundary_weight = options.qem.boundary_weight;
-  const bool is_mean = is_quadric ? options.qem.mean : options.measure != Measure::mean;
-  out.scale =
-      make_quadric_scale(wedges.positions, triangles, {.area_weighted = true, .mean = is_mean});
+  out.fourth_root = !is_quadric && options.measure != Measure::mean;
+  out.scale = make_quadric_scale(wedges.positions, triangles,
+                                 {.area_weighted = true, .mean = is_quadric && options.qem.mean});
   return {wedges, wedges.positions, triangles, mesh.colors, out};
 }
 

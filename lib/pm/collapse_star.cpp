@@ -32,8 +32,13 @@ bool CollapseStar::gather(std::uint32_t u) {
   return is_legal_ = !spokes_.empty();
 }
 
-void CollapseStar::push_rim(const Spoke& spoke) {
-  rim_.push_back({spoke.a, spoke.wedge_a, static_cast<std::uint32_t>(faces_.size()), {}, {}});
+// from_b: the rim goes from b to a.
+void CollapseStar::push_rim(const Spoke& spoke, bool from_b) {
+  rim_.push_back({from_b ? spoke.b : spoke.a,
+                  from_b ? spoke.wedge_b : spoke.wedge_a,
+                  static_cast<std::uint32_t>(faces_.size()),
+                  {},
+                  {}});
   faces_.push_back(spoke.face);
 }
 
@@ -81,18 +86,20 @@ bool CollapseStar::order(std::size_t first, std::size_t last) {
   return end_sector(spokes_[first], begin, is_closed);
 }
 
-// Joins spokes at edges of just two of them that are wound alike.
+// Joins spokes at edges of just two of them.
 void CollapseStar::link_fans(std::size_t first, std::size_t last) {
-  next_.resize(spokes_.size()), previous_.resize(spokes_.size());
-  for (std::size_t i = first; i < last; ++i) next_[i] = previous_[i] = i;
-  for (std::size_t i = first; i < last; ++i) {
-    std::size_t n_at_edge = 0, joined = i;
-    for (std::size_t j = first; j < last; ++j) {
-      n_at_edge += (spokes_[j].a == spokes_[i].b) + (spokes_[j].b == spokes_[i].b);
-      if (spokes_[j].a == spokes_[i].b) joined = j;
+  joined_.resize(2 * spokes_.size());
+  for (std::size_t i = first; i < last; ++i)
+    for (const bool at_b : {false, true}) {
+      const std::uint32_t vertex = at_b ? spokes_[i].b : spokes_[i].a;
+      std::size_t n_at_edge = 0, other = i;
+      for (std::size_t j = first; j < last; ++j) {
+        if (spokes_[j].a != vertex && spokes_[j].b != vertex) continue;
+        ++n_at_edge;
+        if (j != i) other = j;
+      }
+      joined_[2 * i + at_b] = n_at_edge == 2 ? other : i;
     }
-    if (n_at_edge == 2 && joined != i) next_[i] = joined, previous_[joined] = i;
-  }
 }
 
 // Whether several of the spokes are at the edge to the vertex.
@@ -107,31 +114,37 @@ bool CollapseStar::is_shared(std::size_t first, std::size_t last, std::uint32_t 
 bool CollapseStar::order_fans(std::size_t first, std::size_t last) {
   link_fans(first, last);
   std::vector<bool> is_done(last - first, false);
-  const auto walk = [&](std::size_t start) {
+  const auto walk = [&](std::size_t start, bool from_b) {
     const std::size_t begin = rim_.size();
-    std::size_t at = start;
-    for (;;) {
-      push_rim(spokes_[at]);
+    const std::uint32_t head = from_b ? spokes_[start].b : spokes_[start].a;
+    std::uint32_t vertex = head, wedge = 0;
+    for (std::size_t at = start;;) {
+      const Spoke& spoke = spokes_[at];
+      const bool is_backward = spoke.b == vertex;
+      if (is_backward != from_b && !texcoords_.empty()) return false;
+      push_rim(spoke, is_backward);
+      if (rim_.size() - begin > 1)
+        has_seam_end_ = has_seam_end_ || differ(wedge, rim_.back().wedge);
       is_done[at - first] = true;
-      const std::size_t next = next_[at];
-      if (next == at || next == start) break;
-      has_seam_end_ = has_seam_end_ || differ(spokes_[at].wedge_b, spokes_[next].wedge_a);
+      vertex = is_backward ? spoke.a : spoke.b, wedge = is_backward ? spoke.wedge_a : spoke.wedge_b;
+      const std::size_t next = joined_[2 * at + !is_backward];
+      if (next == at || is_done[next - first]) break;
       at = next;
     }
-    const Spoke &head = spokes_[start], &tail = spokes_[at];
-    const bool is_closed = tail.b == head.a;
+    const bool is_closed = vertex == head;
     if (is_closed)
-      has_seam_end_ = has_seam_end_ || differ(tail.wedge_b, head.wedge_a);
+      has_seam_end_ = has_seam_end_ || differ(wedge, rim_[begin].wedge);
     else
-      rim_.push_back({tail.b, tail.wedge_b, 0, {}, {}});
+      rim_.push_back({vertex, wedge, 0, {}, {}});
     const bool is_cut =
-        !is_closed && (is_shared(first, last, head.a) || is_shared(first, last, tail.b));
-    return end_sector(head, begin, is_closed, is_cut);
+        !is_closed && (is_shared(first, last, head) || is_shared(first, last, vertex));
+    return end_sector(spokes_[start], begin, is_closed, is_cut);
   };
   for (std::size_t i = first; i < last; ++i)
-    if (previous_[i] == i && !walk(i)) return false;
+    for (const bool at_b : {false, true})
+      if (joined_[2 * i + at_b] == i && !is_done[i - first] && !walk(i, at_b)) return false;
   for (std::size_t i = first; i < last; ++i)
-    if (!is_done[i - first] && !walk(i)) return false;
+    if (!is_done[i - first] && !walk(i, false)) return false;
   return true;
 }
 

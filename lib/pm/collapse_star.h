@@ -13,8 +13,8 @@ namespace viewcell {
 /// The star of one vertex u at a time: the triangles at u. A sector is one fan of triangles, joined
 /// edge to edge around u, of one texture chart: several where u lies on borders of charts, on edges
 /// of more than two triangles or where surfaces touch; else one. Fans end at edges of one, or of
-/// more than two triangles, and where the triangles' winding turns. Positions and texture
-/// coordinates are relative to u.
+/// more than two triangles, and go on where the winding turns. Positions and texture coordinates
+/// are relative to u.
 class CollapseStar {
  public:
   /// A neighbour of u; the neighbours in order are the rim of the star.
@@ -24,7 +24,8 @@ class CollapseStar {
     glm::dvec3 to;       ///< from u
     glm::dvec2 uv;       ///< from u, in the texture; 0 without texture coordinates
   };
-  /// Part of the rim, in the winding of the triangles; an open sector's last neighbour has no face.
+  /// Part of the rim, in the winding of the triangles (of the first, where it turns); an open
+  /// sector's last neighbour has no face.
   struct Sector {
     std::span<const Rim> rim;
     bool is_closed = false;
@@ -40,7 +41,8 @@ class CollapseStar {
                std::span<const glm::vec3> positions, std::span<const glm::vec2> texcoords)
       : mesh_(mesh), wedges_(wedges), positions_(positions), texcoords_(texcoords) {}
 
-  /// False when some fan meets a neighbour twice. The last star is cached until forget().
+  /// False when some fan meets a neighbour twice, or turns its winding and there is a texture. The
+  /// last star is cached until forget().
   bool gather(std::uint32_t u);
   void forget() { of_ = kNone; }
   /// Whether a texture seam ends in u: some neighbour then has two texture coordinates within one
@@ -61,7 +63,7 @@ class CollapseStar {
   bool order_fans(std::size_t first, std::size_t last);
   void link_fans(std::size_t first, std::size_t last);
   bool is_shared(std::size_t first, std::size_t last, std::uint32_t vertex) const;
-  void push_rim(const Spoke& spoke);
+  void push_rim(const Spoke& spoke, bool from_b = false);
   bool end_sector(const Spoke& spoke, std::size_t begin, bool is_closed, bool is_cut = false);
   bool differ(std::uint32_t wedge_a, std::uint32_t wedge_b) const;
   bool meets_each_once(std::size_t first) const;
@@ -74,7 +76,7 @@ class CollapseStar {
   std::uint32_t of_ = kNone;
   bool is_legal_ = false, has_seam_end_ = false;
   std::vector<Spoke> spokes_;
-  std::vector<std::size_t> next_, previous_;  // spoke -> the one that it is joined to, or itself
+  std::vector<std::size_t> joined_;  // spokes at a and at b -> the one there, or the same
   std::vector<Rim> rim_;
   std::vector<Sector> sectors_;
   std::vector<std::uint32_t> faces_;

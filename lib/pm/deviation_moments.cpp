@@ -39,20 +39,22 @@ void DeviationMoments::add(const CollapseMap& map, Change& change) {
     if (local_[i].is_new) change.faces.push_back({faces[i], local_[i].after});
 }
 
-// Each overlay cell adds its area's share of the old face's moments to those of the new face.
+// Each overlay cell adds its area's share of the old face's moments to those of the new face; those
+// of a face that has lost all of its area are shared alike.
 void DeviationMoments::distribute(const CollapseMap& map) {
   const std::vector<OverlayCell>& cells = map.overlay().cells();
   const std::vector<CellMoments>& moments = map.overlay().moments();
   for (std::size_t i = 0; i < cells.size(); ++i) {
     local_[cells[i].old_face].is_old = true;
     local_[cells[i].old_face].old_area += moments[i].area;
+    ++local_[cells[i].old_face].n_cells;
   }
   for (std::size_t i = 0; i < cells.size(); ++i) {
     const CellMoments& cell = moments[i];
     const Local& from = local_[cells[i].old_face];
     const Moments& old = from.before;
-    const bool is_whole = cells[i].old_face == cells[i].new_face && cell.square == 0;
-    const double share = from.old_area > 0 ? cell.area / from.old_area : (is_whole ? 1 : 0);
+    const double share =
+        from.old_area > 0 ? cell.area / from.old_area : 1.0 / static_cast<double>(from.n_cells);
     const double area = share * old.area;
     Local& to = local_[cells[i].new_face];
     to.is_new = true;

@@ -45,7 +45,8 @@ class DeviationMoments {
  private:
   struct Local {  // of a face of the map
     Moments before, after;
-    double old_area = 0;  // of its cells
+    double old_area = 0;      // of its cells
+    std::size_t n_cells = 0;  // of it as an old face
     bool is_old = false, is_new = false;
   };
   const Moments& moments_of(std::uint32_t face, const Change& change) const;

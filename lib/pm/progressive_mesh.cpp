@@ -19,6 +19,14 @@ UsedVertices take_all_vertices(std::size_t n) {
   return out;
 }
 
+// Turns all of them where most are against the input's: those of a mesh that is wound inside out.
+void turn_to(std::span<const glm::vec3> inputs, std::vector<glm::vec3>& normals) {
+  std::size_t n_against = 0;
+  for (std::size_t i = 0; i < inputs.size(); ++i) n_against += glm::dot(inputs[i], normals[i]) < 0;
+  if (2 * n_against <= inputs.size()) return;
+  for (glm::vec3& normal : normals) normal = -normal;
+}
+
 // A corner as it is drawn.
 struct DrawnCorner {
   std::uint32_t index = 0;
@@ -66,6 +74,9 @@ std::vector<glm::vec3> compute_drawn_normals(const TriMesh& mesh, std::size_t n_
       if (length > 0) out[corner.index] = glm::vec3(sum / length);
     }
   }
+  std::vector<glm::vec3> inputs;
+  for (std::uint32_t c = 0; c < n; ++c) inputs.push_back(normal_of(c));
+  turn_to(inputs, out);
   return out;
 }
 
@@ -180,6 +191,7 @@ void ProgressiveMesh::add_normals(const UsedVertices& used, std::span<const Tria
   if (of_vertices.empty() && of_wedges.empty()) return;
   if (of_wedges.empty() && !has_welded_) {
     out.normals = make_vertex_normals(out);
+    turn_to(used.pick(of_vertices), out.normals);
     return;
   }
   out.corner_normals = compute_drawn_normals(

@@ -230,5 +230,28 @@ TEST(CornerNormals, HardEdgesStayHardWhileFacesGo) {
   }
 }
 
+TEST(CornerNormals, NormalsAgainstTheWindingStaySo) {
+  TriMesh sphere = make_noisy_sphere(3, 0.05, 8);
+  for (const glm::vec3& p : sphere.positions) sphere.normals.push_back(-glm::normalize(p));
+  TriMesh by_corner = sphere;
+  by_corner.normals.clear();
+  for (const Triangle& t : sphere.triangles)
+    for (const std::uint32_t v : t) by_corner.corner_normals.push_back(sphere.normals[v]);
+  for (const TriMesh& mesh : {sphere, by_corner}) {
+    BuildOptions options;
+    options.placement = Placement::full;
+    ProgressiveMesh pm(build_progressive_mesh(mesh, options).record);
+    pm.set_faces(200);
+    const TriMesh left = pm.extract();
+    for (std::size_t t = 0; t < left.triangles.size(); ++t)
+      for (std::size_t k = 0; k < 3; ++k) {
+        const std::uint32_t v = left.triangles[t][k];
+        const glm::vec3 normal =
+            left.normals.empty() ? left.corner_normals[3 * t + k] : left.normals[v];
+        EXPECT_LT(glm::dot(normal, left.positions[v]), 0);
+      }
+  }
+}
+
 }  // namespace
 }  // namespace viewcell

@@ -88,6 +88,45 @@ TEST(NonManifold, SheetsThatMeetInALineGoDownToTwoTrianglesEach) {
     }
 }
 
+// A strip of n x 2 squares that is turned over once: its winding turns somewhere, and it has one
+// border.
+TriMesh make_moebius_strip(std::uint32_t n) {
+  TriMesh mesh;
+  for (std::uint32_t i = 0; i < n; ++i) {
+    const double angle = 2 * std::numbers::pi * i / n;
+    for (const double across : {-0.3, 0.0, 0.3}) {
+      const double r = 1 + across * std::cos(angle / 2);
+      mesh.positions.emplace_back(r * std::cos(angle), r * std::sin(angle),
+                                  across * std::sin(angle / 2));
+    }
+  }
+  const auto at = [&](std::uint32_t i, std::uint32_t k) {
+    return i < n ? 3 * i + k : 3 * (i - n) + 2 - k;
+  };
+  for (std::uint32_t i = 0; i < n; ++i)
+    for (std::uint32_t k = 0; k < 2; ++k) {
+      mesh.triangles.push_back({at(i, k), at(i + 1, k), at(i + 1, k + 1)});
+      mesh.triangles.push_back({at(i, k), at(i + 1, k + 1), at(i, k + 1)});
+    }
+  return mesh;
+}
+
+TEST(NonManifold, BordersStayWhereWindingsMeet) {
+  const TriMesh strip = make_moebius_strip(24);
+  for (const Way& way : kWays)
+    for (const Measure measure : {Measure::max, Measure::mean}) {
+      if (needs_texture(way)) continue;
+      SCOPED_TRACE(testing::Message() << metric_name(way.metric) << placement_name(way.placement));
+      BuildOptions options = options_of(way);
+      options.measure = measure;
+      ProgressiveMesh pm(build_progressive_mesh(strip, options).record);
+      for (const std::size_t n : {94u, 80u, 60u, 48u}) {
+        pm.set_faces(n);
+        EXPECT_LT(symmetric_distance(strip, pm.extract()), 0.09) << n;
+      }
+    }
+}
+
 TEST(NonManifold, SurfacesThatTouchGoOnSimplifying) {
   const TriMesh mesh = make_touching_spheres();
   for (const Measure measure : {Measure::max, Measure::mean}) {

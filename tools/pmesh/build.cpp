@@ -94,6 +94,14 @@ Remarks remark_on(const BuildResult& result) {
       "pieces, which edges and vertices do not join to others, vanish whole where that costs "
       "less than a collapse (--keep-pieces keeps them)",
       result.counts.n_vanished);
+  const std::size_t by_chart = result.counts.n_refused[static_cast<std::size_t>(Refusal::chart)];
+  const std::size_t n_refused = std::accumulate(result.counts.n_refused.begin(),
+                                                result.counts.n_refused.end(), std::size_t{0});
+  if (result.record.texcoords.empty() && 2 * by_chart > n_refused)
+    add_remark(&out,
+               "edges where materials or colours meet hold collapses back (--ignore "
+               "materials,colours lets go of them)",
+               result.n_region_edges);
   const PieceCounts& pieces = result.pieces;
   if (pieces.n_small >= kMostSmallPieces && 2 * pieces.n_in_small > result.record.faces.size())
     add_remark(&out,
