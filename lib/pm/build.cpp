@@ -116,10 +116,13 @@ CollapseCounts collapse_all(CollapseMesh& mesh, Metric& metric, Recorder& record
   if (is_bounded || mesh.n_triangles() > start / kTail) return total;
   // What was refused once may be legal by now; then vertices stay where they are, which turns over
   // fewer triangles.
-  for (const bool ends_only : {false, true}) {
-    recorded.ends_only = ends_only;
-    do loop.choose_all();
-    while (mesh.n_triangles() > start - span && run_to(start - span) > 0);
+  for (bool goes_on = true; goes_on;) {
+    goes_on = false;
+    for (const bool ends_only : {false, true}) {
+      recorded.ends_only = ends_only;
+      loop.choose_all();
+      goes_on = (mesh.n_triangles() > start - span && run_to(start - span) > 0) || goes_on;
+    }
   }
   return total;
 }
