@@ -116,18 +116,18 @@ class WedgeMaker {
 // Wedge -> the lowest one of its vertex with an equal key(wedge), whose first entry is the vertex.
 template <typename KeyOf>
 std::vector<std::uint32_t> match_wedges(const WedgeMesh& mesh, KeyOf&& key_of) {
-  constexpr std::uint32_t kNone = 0xffffffffu;
+  constexpr std::uint32_t kNoWedge = 0xffffffffu;
   const auto n = static_cast<std::uint32_t>(mesh.n_wedges());
   std::vector<std::uint32_t> out(n);
   // The lowest wedges of a vertex, one after another.
-  std::vector<std::uint32_t> first(n, kNone), next(n, kNone);
+  std::vector<std::uint32_t> first(n, kNoWedge), next(n, kNoWedge);
   std::unordered_map<Key, std::uint32_t, KeyHash> chained;  // beyond the first kLongChain
   for (std::uint32_t w = 0; w < n; ++w) {
     const Key key = key_of(w);
     std::uint32_t* at = &first[mesh.wedge_vertex[w]];
-    for (int i = 0; *at != kNone && key_of(*at) != key; ++i)
+    for (int i = 0; *at != kNoWedge && key_of(*at) != key; ++i)
       at = i < kLongChain ? &next[*at] : &chained.try_emplace(key, w).first->second;
-    if (*at == kNone) *at = w;
+    if (*at == kNoWedge) *at = w;
     out[w] = *at;
   }
   return out;

@@ -97,7 +97,9 @@ void stages(benchmark::State& state) {
       state.counters[name] = 1000 * s;
       return s;
     };
-    const WedgeMesh wedges = make_wedges(mesh, {.along_curve = true});
+    WedgeOptions wedge_options;
+    wedge_options.along_curve = true;
+    const WedgeMesh wedges = make_wedges(mesh, wedge_options);
     double sum = lap("wedges_ms");
     const std::vector<Triangle> triangles = wedges.vertex_triangles();
     CollapseMesh work(wedges.positions, triangles);

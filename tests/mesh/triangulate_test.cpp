@@ -257,13 +257,13 @@ TEST(Triangulate, AMillionCornersOfAComb) {
 }
 
 TEST(Triangulate, ALongSpiral) {
-  constexpr std::uint32_t kHalf = 100'000;
-  Polygon polygon(2 * kHalf);
-  for (std::uint32_t k = 0; k < kHalf; ++k) {
+  constexpr std::uint32_t kSide = 100'000;
+  Polygon polygon(2 * kSide);
+  for (std::uint32_t k = 0; k < kSide; ++k) {
     const double a = 0.01 * k, r = 10 + a;
     for (const double more : {0.0, 2.0}) {
       const glm::dvec3 p(std::cos(a), std::sin(a), 0);
-      polygon[more > 0 ? k : 2 * kHalf - 1 - k] = glm::vec3((r + more) * p);
+      polygon[more > 0 ? k : 2 * kSide - 1 - k] = glm::vec3((r + more) * p);
     }
   }
   std::vector<Triangle> triangles;

@@ -106,8 +106,9 @@ TEST(ProgressiveMesh, RefineThenCoarsenIsTheIdentity) {
 TEST(ProgressiveMesh, ChartsMoveAtAllLevels) {
   const TriMesh mesh = make_textured_sphere(3);
   for (const Placement placement : {Placement::half, Placement::full}) {
-    const ProgressiveRecord record =
-        build_progressive_mesh(mesh, {.metric = MetricKind::qem3, .placement = placement}).record;
+    BuildOptions options;
+    options.placement = placement;
+    const ProgressiveRecord record = build_progressive_mesh(mesh, options).record;
     ProgressiveRecord moved = record;
     std::vector<glm::vec2> by;
     for (const std::int32_t material : mesh.materials) by.emplace_back(material ? 2 : 0, 0);
