@@ -120,6 +120,7 @@ n_places=$(grep -c '^vt' patch.obj)
 patches large photo | awk -v n="$n_places" '/^vt/ && ++i > n { $2 *= 3; $3 *= 3 } { print }' >tiled.obj
 expect 0 "$pmesh" build tiled.obj --metric mapping -o tiled.pm
 fault 1 "photo: 1 chart wants a picture that repeats" "$texadapt" tiled.pm tiled.obj --faces 400 -o x.glb
+fault 1 "(--keep-repeating leaves such pictures of a .glb as they are)" "$texadapt" tiled.pm tiled.obj --faces 400 -o x.glb
 expect 0 "$texadapt" tiled.pm tiled.obj --faces 200 --keep-repeating -o tiled.glb
 grep -q 'pictures that repeat, left as they are (1)' "$log/err" || fail "left as it is without a word"
 shots tiled.obj tiled.obj tiled-original tiled.obj --unlit

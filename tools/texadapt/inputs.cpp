@@ -144,9 +144,12 @@ void check_obstacle(const std::string& file, const std::string& of, const ChartF
                     bool allows_overlap) {
   const std::string obstacle = find_obstacle(findings, allows_overlap);
   if (obstacle.empty()) return;
-  const bool is_overlap = find_obstacle(findings, true).empty();
-  throw InputError(file, "",
-                   of + obstacle + (is_overlap ? " (--allow-overlap goes on all the same)" : ""));
+  const char* way_out = "";
+  if (find_obstacle(findings, true).empty())
+    way_out = " (--allow-overlap goes on all the same)";
+  else if (findings.n_repeating > 0 && findings.n_not_finite == 0)
+    way_out = " (--keep-repeating leaves such pictures of a .glb as they are)";
+  throw InputError(file, "", of + obstacle + way_out);
 }
 
 AdaptLevelsOptions options_of(const TexadaptArguments& a, const ShownPicture& picture) {
