@@ -111,6 +111,7 @@ struct RecordedMetric {
   Refusal allows(const CollapseMesh&, std::uint32_t u, std::uint32_t v) {
     if (mesh.is_lone_triangle(u, v)) return Refusal::link;
     if (!recorder.match(mesh, u, v)) return Refusal::chart;
+    recorder.table().choose_by_normals(mesh, v);
     if constexpr (kHasPlacement)
       if (!stays()) recorder.table().match_both(mesh, v);
     if constexpr (kHasPlacement)

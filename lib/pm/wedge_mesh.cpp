@@ -384,17 +384,16 @@ std::uint32_t WedgeTable::find_nearest(const CollapseMesh& mesh, std::uint32_t v
 }
 
 // Pairs the wedges of u that only surviving triangles have.
-bool WedgeTable::pair_rest(const CollapseMesh& mesh, std::uint32_t u, std::uint32_t v) {
+bool WedgeTable::pair_rest(const CollapseMesh& mesh, std::uint32_t u) {
   bool fits = true;
+  first_further_ = pairs_.size();
   mesh.for_each_corner(u, [&](std::uint32_t c) {
     const std::uint32_t from = corners_[c];
-    if (std::any_of(pairs_.begin(), pairs_.end(), [&](const Pair& p) { return p.from == from; }))
-      return;
     const auto same = [&](const Pair& p) { return chart_vertex(p.from) == chart_vertex(from); };
     const auto met = std::find_if(chart_pairs_.begin(), chart_pairs_.end(), same);
-    fits = fits && met != chart_pairs_.end() &&
-           add_pair({from, find_nearest(mesh, v, {from, met->to})});
+    fits = fits && met != chart_pairs_.end() && add_pair({from, met->to});
   });
+  end_further_ = pairs_.size();
   return fits;
 }
 
@@ -409,7 +408,12 @@ bool WedgeTable::match(const CollapseMesh& mesh, std::uint32_t u, std::uint32_t 
   mesh.for_each_sheet_corner(u, pair_up);
   n_sheet_pairs_ = chart_pairs_.size();
   if (mesh.has_copies()) mesh.for_each_corner(u, pair_up);
-  return fits && pair_rest(mesh, u, v) && pairs_.size() <= kMostPairs;
+  return fits && pair_rest(mesh, u) && pairs_.size() <= kMostPairs;
+}
+
+void WedgeTable::choose_by_normals(const CollapseMesh& mesh, std::uint32_t v) {
+  for (std::size_t i = first_further_; i < end_further_; ++i)
+    pairs_[i].to = find_nearest(mesh, v, pairs_[i]);
 }
 
 bool WedgeTable::match_both(const CollapseMesh& mesh, std::uint32_t v) {

@@ -85,9 +85,9 @@ class WedgeTable {
   }
 
   /// For the collapse u -> v, which wedge of v takes over from each wedge of u: the pairs at the
-  /// triangles that would die, and for further wedges those of their chart vertex, of the nearest
-  /// normal. False when some chart vertex of u meets none of v's, or two: u would leave the
-  /// boundary of its chart. Without charts the first pair serves all.
+  /// triangles that would die, and for further wedges those of their chart vertex. False when some
+  /// chart vertex of u meets none of v's, or two: u would leave the boundary of its chart. Without
+  /// charts the first pair serves all.
   bool match(const CollapseMesh& mesh, std::uint32_t u, std::uint32_t v);
   const std::vector<Pair>& pairs() const { return pairs_; }
   /// The first pair of each chart vertex of u.
@@ -97,12 +97,15 @@ class WedgeTable {
   /// After match(): whether v may move as well, for each of its chart vertices is met by just one
   /// of u. Then pairs() has every wedge of v.
   bool match_both(const CollapseMesh& mesh, std::uint32_t v);
+  /// After match(): further wedges of u go to the wedge of v in their chart whose normal is
+  /// nearest.
+  void choose_by_normals(const CollapseMesh& mesh, std::uint32_t v);
   /// Gives the moved corners the wedges of the last match, which must have been this collapse.
   void apply(const CollapseTrace& trace);
 
  private:
   bool add_pair(const Pair& pair);
-  bool pair_rest(const CollapseMesh& mesh, std::uint32_t u, std::uint32_t v);
+  bool pair_rest(const CollapseMesh& mesh, std::uint32_t u);
   bool keeps_texture(const Pair& pair) const;
   std::uint32_t find_nearest(const CollapseMesh& mesh, std::uint32_t v, const Pair& pair) const;
   std::vector<std::uint32_t> chart_vertex_, texture_vertex_;  // the latter if charts are finer
@@ -110,7 +113,7 @@ class WedgeTable {
   bool has_regions_ = false;
   LargeVector<std::uint32_t> corners_;
   std::vector<Pair> pairs_, chart_pairs_;
-  std::size_t n_sheet_pairs_ = 0;
+  std::size_t n_sheet_pairs_ = 0, first_further_ = 0, end_further_ = 0;  // of pairs_
 };
 
 }  // namespace viewcell
