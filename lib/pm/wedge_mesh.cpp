@@ -389,6 +389,8 @@ bool WedgeTable::pair_rest(const CollapseMesh& mesh, std::uint32_t u) {
   first_further_ = pairs_.size();
   mesh.for_each_corner(u, [&](std::uint32_t c) {
     const std::uint32_t from = corners_[c];
+    for (const Pair& p : pairs_)
+      if (p.from == from) return;
     const auto same = [&](const Pair& p) { return chart_vertex(p.from) == chart_vertex(from); };
     const auto met = std::find_if(chart_pairs_.begin(), chart_pairs_.end(), same);
     fits = fits && met != chart_pairs_.end() && add_pair({from, met->to});
