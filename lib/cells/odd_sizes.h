@@ -13,7 +13,7 @@ namespace viewcell {
 /// than the area; smaller than that part of it; wholly outside the area. Needs the scene's meshes.
 std::vector<std::string> find_odd_sizes(const Scene& scene, double cell_size);
 
-/// Inches for millimetres make 25, metres for feet 3.3: what is less may be meant.
+/// Feet for inches, and all that is coarser; what is less may be meant.
 inline constexpr double kOddTimes = 12;
 
 }  // namespace viewcell

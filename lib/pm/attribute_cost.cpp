@@ -7,14 +7,6 @@
 #include "pm/border_edges.h"
 
 namespace viewcell {
-namespace {
-
-glm::dvec3 times(const Symmetric3& a, const glm::dvec3& x) {
-  return {a[0] * x.x + a[3] * x.y + a[4] * x.z, a[3] * x.x + a[1] * x.y + a[5] * x.z,
-          a[4] * x.x + a[5] * x.y + a[2] * x.z};
-}
-
-}  // namespace
 
 void ColourQuadric::add_triangle(const glm::dvec3 (&p)[3], const glm::dvec3 (&colours)[3],
                                  double w) {

@@ -35,13 +35,8 @@ void LindstromTurkMetric::Quadratic::add_cross(const glm::dvec3& e1, const glm::
   c += glm::dot(e2, e2);
 }
 
-glm::dvec3 LindstromTurkMetric::Quadratic::times(const glm::dvec3& x) const {
-  return {a[0] * x.x + a[3] * x.y + a[4] * x.z, a[3] * x.x + a[1] * x.y + a[5] * x.z,
-          a[4] * x.x + a[5] * x.y + a[2] * x.z};
-}
-
 double LindstromTurkMetric::Quadratic::value(const glm::dvec3& x) const {
-  return glm::dot(x, times(x)) + 2 * glm::dot(b, x) + c;
+  return glm::dot(x, times(a, x)) + 2 * glm::dot(b, x) + c;
 }
 
 void LindstromTurkMetric::Star::add(const glm::dvec3& n, double sign) {
@@ -77,7 +72,7 @@ class LindstromTurkMetric::Constraints {
     const double size = q.a[0] + q.a[1] + q.a[2];
     if (is_full() || !(size > 0)) return;
     const auto add_free = [&](const glm::dvec3& free) {
-      const glm::dvec3 row = q.times(free);
+      const glm::dvec3 row = times(q.a, free);
       // Directions in which q is nearly constant are ignored.
       if (glm::dot(row, row) > 1e-20 * size * size) add(row, -glm::dot(q.b, free));
     };
@@ -153,7 +148,7 @@ LindstromTurkMetric::Sums LindstromTurkMetric::sum_triangles(std::uint32_t u, st
   for (const Spoke& spoke : spokes_)
     if (spoke.a == v || spoke.b == v) all.add(spoke.normal, -1);
   const glm::dvec3 edge = between(u, v);
-  const glm::dvec3 moment = Quadratic{of_v.squares}.times(edge);
+  const glm::dvec3 moment = times(of_v.squares, edge);
   Sums sums;
   sums.normals = all.normals;
   sums.volumes = glm::dot(of_v.normals, edge);

@@ -51,7 +51,6 @@ class LindstromTurkMetric {
 
     void add(const Quadratic& q, double weight);
     void add_cross(const glm::dvec3& e1, const glm::dvec3& e2);  // |e2 - x cross e1|^2
-    glm::dvec3 times(const glm::dvec3& x) const;
     double value(const glm::dvec3& x) const;
   };
   // Sums over triangles and boundary edges, relative to an origin.

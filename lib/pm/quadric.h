@@ -9,6 +9,11 @@ namespace viewcell {
 /// xx, yy, zz, xy, xz, yz.
 using Symmetric3 = std::array<double, 6>;
 
+inline glm::dvec3 times(const Symmetric3& a, const glm::dvec3& x) {
+  return {a[0] * x.x + a[3] * x.y + a[4] * x.z, a[3] * x.x + a[1] * x.y + a[5] * x.z,
+          a[4] * x.x + a[5] * x.y + a[2] * x.z};
+}
+
 /// x with A x = b; A regular.
 inline glm::dvec3 solve_symmetric(const Symmetric3& a, const glm::dvec3& b) {
   const auto [xx, yy, zz, xy, xz, yz] = a;

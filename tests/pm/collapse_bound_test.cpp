@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "mesh/surface_distance.h"
 #include "pm/build.h"
+#include "pm/measure.h"
 #include "pm/shapes.h"
 
 namespace viewcell {
@@ -28,13 +28,6 @@ TriMesh make_small_sphere(std::uint64_t seed) {
   return mesh;
 }
 
-double measure_max(const TriMesh& a, const TriMesh& b) {
-  DistanceOptions options;
-  options.n_samples = 2000;
-  options.n_threads = 1;
-  return measure_surface_distance(a, b, options).symmetric().max;
-}
-
 // No level is farther from the mesh than it says. Returns the largest share of that which a
 // distance takes. least_faces: levels below are left out.
 double check_levels(const TriMesh& mesh, const BuildOptions& options,
@@ -44,7 +37,7 @@ double check_levels(const TriMesh& mesh, const BuildOptions& options,
   for (const std::size_t n : levels) {
     pm.set_faces(n);
     if (pm.n_faces() < least_faces) continue;
-    const double measured = measure_max(mesh, pm.extract());
+    const double measured = measure_farthest(mesh, pm.extract());
     EXPECT_GE(pm.error(), 0);
     EXPECT_LE(measured, pm.error() * (1 + 1e-6)) << n;
     tightest = std::max(tightest, measured / pm.error());
@@ -145,7 +138,7 @@ TEST(CollapseBound, APieceThatVanishesCounts) {
     ProgressiveMesh pm(build_progressive_mesh(mesh, options).record);
     bool is_gone = false;
     for (pm.set_level(pm.n_splits()); pm.level() > 0; pm.coarsen()) {
-      const double measured = measure_max(mesh, pm.extract());
+      const double measured = measure_farthest(mesh, pm.extract());
       is_gone = is_gone || measured > 5;
       if (pm.error() >= 0) {
         EXPECT_LE(measured, pm.error() * (1 + 1e-6) + 1e-9) << pm.level();
@@ -154,7 +147,7 @@ TEST(CollapseBound, APieceThatVanishesCounts) {
     EXPECT_TRUE(is_gone);
     options.error_bound = 0.5f;
     ProgressiveMesh kept(build_progressive_mesh(mesh, options).record);
-    EXPECT_LE(measure_max(mesh, kept.extract()), 0.5);
+    EXPECT_LE(measure_farthest(mesh, kept.extract()), 0.5);
     EXPECT_GE(kept.error(), 0);
   }
 }
@@ -168,7 +161,7 @@ TEST(CollapseBound, ABoundIsKept) {
   ProgressiveMesh pm(built.record);
   EXPECT_LE(pm.error(), 0.05f);
   EXPECT_LT(pm.n_faces(), sphere.triangles.size() / 4);
-  EXPECT_LE(measure_max(sphere, pm.extract()), 0.05);
+  EXPECT_LE(measure_farthest(sphere, pm.extract()), 0.05);
 }
 
 }  // namespace

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "mesh/surface_distance.h"
 #include "mesh/surface_samples.h"
 #include "pm/build.h"
+#include "pm/measure.h"
 #include "pm/shapes.h"
 #include "pm/ways.h"
 
@@ -62,7 +62,7 @@ TriMesh make_sphere_with_fins(std::size_t n_fins) {
 }
 
 double symmetric_distance(const TriMesh& a, const TriMesh& b) {
-  return measure_surface_distance(a, b, {.n_samples = 20000}).symmetric().max;
+  return measure_farthest(a, b, 20000);
 }
 
 bool needs_texture(const Way& way) {
