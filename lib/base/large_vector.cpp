@@ -1,5 +1,6 @@
 #include "base/large_vector.h"
 
+#include <malloc.h>
 #include <sys/mman.h>
 
 #include <cstdint>
@@ -34,6 +35,12 @@ void* allocate_pages(std::size_t n_bytes) {
 
 void free_pages(void* pages, std::size_t n_bytes) {
   munmap(pages, round_up(n_bytes));
+}
+
+void keep_freed_memory() {
+  constexpr int kMost = 64 << 20;
+  mallopt(M_MMAP_THRESHOLD, kMost);
+  mallopt(M_TRIM_THRESHOLD, 2 * kMost);
 }
 
 }  // namespace viewcell

@@ -13,6 +13,11 @@ namespace viewcell {
 void* allocate_pages(std::size_t n_bytes);
 void free_pages(void* pages, std::size_t n_bytes);
 
+/// Memory that is freed stays with the process for what is allocated next, which then has no pages
+/// to fault in (6 % of a build of 69,000 triangles); by default the C library (glibc) gives blocks
+/// back. For tools that fill the same megabytes several times over, called once at their start.
+void keep_freed_memory();
+
 /// Allocates in pages of its own from kLeastBytes on, else as usual.
 template <typename T>
 struct LargeAllocator {

@@ -15,13 +15,15 @@ double largest(const glm::dvec3& v) {
 }  // namespace
 
 glm::dvec3 choose_offset(const Box& box) {
-  constexpr double kStepShare = 0x1p-18;   // of the longest side
-  constexpr double kPointShare = 0x1p-30;  // of its coordinates: the side of a box that is a point
+  constexpr double kStepShare = 0x1p-18;    // of the longest side
+  constexpr double kPointShare = 0x1p-30;   // of its coordinates: the side of a box that is a point
+  constexpr double kDigitsShare = 0x1p-27;  // likewise: what a float in nine digits may be off
   if (!(box.lo.x <= box.hi.x)) return glm::dvec3(0);
   const glm::dvec3 reach = glm::max(glm::abs(box.lo), glm::abs(box.hi));
   const double most = largest(reach);
   if (!(most > 0)) return glm::dvec3(0);
-  if (box.lo == box.hi && box.lo == glm::dvec3(glm::vec3(box.lo))) return glm::dvec3(0);
+  const double off_floats = largest(glm::abs(box.lo - glm::dvec3(glm::vec3(box.lo))));
+  if (box.lo == box.hi && off_floats <= kDigitsShare * most) return glm::dvec3(0);
   const double side = std::max(largest(box.size()), kPointShare * most);
   const double step = std::ldexp(1.0, std::ilogb(most) - 23);
   if (!(step > kStepShare * side)) return glm::dvec3(0);

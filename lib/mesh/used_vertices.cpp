@@ -31,9 +31,12 @@ UsedVertices find_used_vertices(std::span<const Triangle> triangles, std::size_t
 }
 
 Box surface_box(const TriMesh& mesh) {
-  Box box;
+  std::vector<char> is_used(mesh.positions.size(), 0);  // bytes: quicker than bits
   for (const Triangle& t : mesh.triangles)
-    for (const std::uint32_t v : t) box.add(mesh.positions[v]);
+    for (const std::uint32_t v : t) is_used[v] = 1;
+  Box box;
+  for (std::size_t v = 0; v < is_used.size(); ++v)
+    if (is_used[v]) box.add(mesh.positions[v]);
   return box;
 }
 

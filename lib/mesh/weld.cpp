@@ -26,12 +26,14 @@ std::uint64_t hash_number(std::uint64_t x) {
 // each, or two that are wound unlike. Told by sums of hashes, in which opposite edges cancel.
 std::vector<bool> find_border_vertices(std::span<const Triangle> triangles,
                                        const std::vector<std::uint32_t>& of) {
-  std::vector<std::uint64_t> sums(of.size(), 0);
+  std::vector<std::uint64_t> sums(of.size(), 0), hashes(of.size());
+  for (std::size_t v = 0; v < of.size(); ++v) hashes[v] = hash_number(v);
   for (const Triangle& t : triangles) {
     const std::uint32_t a = of[t[0]], b = of[t[1]], c = of[t[2]];
     if (a == b || b == c || c == a) continue;
-    const std::uint64_t ha = hash_number(a), hb = hash_number(b), hc = hash_number(c);
-    sums[a] += hb - hc, sums[b] += hc - ha, sums[c] += ha - hb;
+    sums[a] += hashes[b] - hashes[c];
+    sums[b] += hashes[c] - hashes[a];
+    sums[c] += hashes[a] - hashes[b];
   }
   std::vector<bool> out(of.size(), false);
   for (std::size_t v = 0; v < sums.size(); ++v) out[v] = sums[v] != 0;

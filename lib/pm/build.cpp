@@ -196,8 +196,10 @@ AttributeCost make_attribute_cost(const WedgeMesh& wedges, const std::vector<Tri
   out.colours = !options.ignore_colours;
   out.boundary_weight = options.qem.boundary_weight;
   out.fourth_root = !is_quadric && options.measure != Measure::mean;
-  out.scale = make_quadric_scale(wedges.positions, triangles,
-                                 {.area_weighted = true, .mean = is_quadric && options.qem.mean});
+  const bool matters = !wedges.region_vertex.empty() || (out.colours && !mesh.colors.empty());
+  if (matters && !out.fourth_root)
+    out.scale = make_quadric_scale(wedges.positions, triangles,
+                                   {.area_weighted = true, .mean = is_quadric && options.qem.mean});
   return {wedges, wedges.positions, triangles, mesh.colors, out};
 }
 
@@ -291,6 +293,7 @@ BuildResult build_progressive_mesh(const TriMesh& mesh, const BuildOptions& opti
       wedges.positions, sheets, vanish.locked, attributes.is_empty() ? nullptr : &attributes, {}};
   find_pieces(triangles, vanish, options, result.pieces, start);
   triangles = {};
+  if (!wedges.texcoords.empty()) result.n_charts = find_joined_charts(wedges).size();
   result.n_region_edges = attributes.n_border_edges();
   result.n_locked =
       static_cast<std::size_t>(std::count(vanish.locked.begin(), vanish.locked.end(), true));

@@ -87,6 +87,7 @@ struct BuildResult {
   PieceCounts pieces;         ///< of the input, welded
   std::size_t n_locked = 0;   ///< vertices
   std::size_t n_region_edges = 0;  ///< where materials or colours meet
+  std::size_t n_charts = 0;        ///< joined charts of the texture (ChartLink::corner)
 };
 
 /// Throws InputError when the metric needs what the mesh has not, UsageError for a metric that has

@@ -11,7 +11,7 @@ bool CollapseStar::gather(std::uint32_t u) {
   spokes_.clear(), rim_.clear(), sectors_.clear(), faces_.clear();
   const bool has_charts = !texcoords_.empty() || wedges_.has_regions();
   mesh_.for_each_sheet_corner(u, [&](std::uint32_t c) {
-    const std::uint32_t t = 3 * (c / 3), a = t + (c + 1 - t) % 3, b = t + (c + 2 - t) % 3;
+    const std::uint32_t k = c % 3, a = c + 1 - 3 * (k == 2), b = c - 1 + 3 * (k == 0);
     const std::uint32_t wedge = wedges_.at(c);
     spokes_.push_back({c / 3, mesh_.vertex_at(a), mesh_.vertex_at(b),
                        has_charts ? wedges_.chart_vertex(wedge) : 0, wedge, wedges_.at(a),

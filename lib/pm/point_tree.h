@@ -8,10 +8,11 @@
 
 namespace viewcell {
 
-/// A balanced tree of points, cut along x, y, z in turn. All are there at first.
+/// Boxes around points that follow one another, in pairs up to one box around all. Quick where
+/// points that are near in number are near in space. All are there at first.
 class PointTree {
  public:
-  /// Copies the points. O(n log n); 20 bytes a point.
+  /// Copies the points. O(n); 20 bytes a point.
   explicit PointTree(std::span<const glm::vec3> points);
 
   /// Takes a point out, or puts it back. O(log n).
@@ -21,21 +22,23 @@ class PointTree {
   static constexpr std::uint32_t kNone = 0xffffffffu;
 
  private:
+  struct Node {
+    glm::vec3 lo{0}, hi{0};       // around its points, those that are not there too
+    std::uint32_t n_present = 0;  // of them
+  };
   struct Nearest {
     glm::dvec3 to;
     double distance2;
     std::uint32_t point = kNone;
   };
-  void build(std::size_t first, std::size_t last, int axis);
-  void search(std::size_t first, std::size_t last, int axis, Nearest& nearest) const;
-  bool is_present(std::size_t first, std::size_t last) const;
+  static double distance2(const Node& node, const glm::dvec3& to);
+  void search(std::size_t node, Nearest& nearest) const;
+  void search_leaf(std::size_t leaf, Nearest& nearest) const;
 
   std::vector<glm::vec3> points_;
-  // Of places [first, last) the one in the middle is the root, those before it lie below it along
-  // the axis, those after it above.
-  std::vector<std::uint32_t> point_at_, place_of_;
-  std::vector<std::uint32_t> n_present_;  // by place: of the range whose root is there
-  std::vector<bool> is_present_;          // by point
+  std::size_t n_leaves_ = 1;  // a power of two
+  std::vector<Node> nodes_;   // of node i those below it are 2 i and 2 i + 1; leaves from n_leaves_
+  std::vector<bool> is_present_;  // by point
 };
 
 }  // namespace viewcell

@@ -48,8 +48,8 @@ void TextureQuadrics::merge(std::uint32_t u, std::uint32_t v, const WedgeTable& 
   boundaries[v].add(boundaries[u]);
 }
 
-float TextureQuadrics::cost_at_parent(const CollapseMesh& mesh, const WedgeTable& wedges,
-                                      std::uint32_t u, std::uint32_t v) const {
+float TextureQuadrics::cost_at_parent(const CollapseMesh& mesh, WedgeTable& wedges, std::uint32_t u,
+                                      std::uint32_t v) const {
   const glm::dvec3 position = glm::dvec3(positions[v]) - centre;
   double value = boundaries[u].value(position) + boundaries[v].value(position);
   double weight = boundaries[u].weight + boundaries[v].weight;
@@ -58,19 +58,20 @@ float TextureQuadrics::cost_at_parent(const CollapseMesh& mesh, const WedgeTable
     value += quadric.value(point(v, at));
     weight += quadric.weight;
   };
-  std::vector<std::uint32_t> met;  // chart vertices of v
-  const auto meet = [&](std::uint32_t wedge) {
-    const std::uint32_t vertex = wedges.chart_vertex(wedge);
-    if (std::find(met.begin(), met.end(), vertex) != met.end()) return;
-    add_wedge(wedge, wedge);
-    met.push_back(vertex);
+  const std::span<const WedgeTable::Pair> pairs(wedges.chart_pairs());
+  const auto is_met = [&](std::span<const WedgeTable::Pair> before, std::uint32_t wedge) {
+    return std::any_of(before.begin(), before.end(), [&](const WedgeTable::Pair& p) {
+      return wedges.chart_vertex(p.to) == wedges.chart_vertex(wedge);
+    });
   };
-  for (const auto& [from, to] : wedges.chart_pairs()) {
-    add_wedge(from, to);
-    meet(to);
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    add_wedge(pairs[i].from, pairs[i].to);
+    if (!is_met(pairs.first(i), pairs[i].to)) add_wedge(pairs[i].to, pairs[i].to);
   }
   // of a hub those that are met, for what the others are off does not depend on u
-  if (!mesh.is_hub(v)) mesh.for_each_corner(v, [&](std::uint32_t c) { meet(wedges.at(c)); });
+  if (!mesh.is_hub(v))
+    for (const std::uint32_t w : wedges.chart_wedges(mesh, v))
+      if (!is_met(pairs, w)) add_wedge(w, w);
   return cost_scale.cost(value, weight);
 }
 

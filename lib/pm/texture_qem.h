@@ -35,7 +35,7 @@ struct TextureQuadrics {
                   const TextureQemOptions& options);
   Vec5 point(std::uint32_t vertex, std::uint32_t wedge) const;
   /// The cost of both vertices at v, each wedge of u at that of v that the table has matched last.
-  float cost_at_parent(const CollapseMesh& mesh, const WedgeTable& wedges, std::uint32_t u,
+  float cost_at_parent(const CollapseMesh& mesh, WedgeTable& wedges, std::uint32_t u,
                        std::uint32_t v) const;
   /// u has collapsed into v, as the table has matched it last.
   void merge(std::uint32_t u, std::uint32_t v, const WedgeTable& wedges);

@@ -116,7 +116,6 @@ class WedgeMaker {
 // Wedge -> the lowest one of its vertex with an equal key(wedge), whose first entry is the vertex.
 template <typename KeyOf>
 std::vector<std::uint32_t> match_wedges(const WedgeMesh& mesh, KeyOf&& key_of) {
-  constexpr std::uint32_t kNoWedge = 0xffffffffu;
   const auto n = static_cast<std::uint32_t>(mesh.n_wedges());
   std::vector<std::uint32_t> out(n);
   // The lowest wedges of a vertex, one after another.
@@ -156,7 +155,7 @@ void find_chart_vertices(const std::vector<std::int32_t>& materials,
   std::vector<bool> is_drawn(mesh.n_wedges(), false);
   for (const Triangle& face : mesh.faces)
     for (const std::uint32_t w : face) is_drawn[w] = true;
-  std::vector<std::uint32_t> drawn(mesh.n_wedges(), 0xffffffffu);  // vertex -> a wedge of it
+  std::vector<std::uint32_t> drawn(mesh.n_wedges(), kNoWedge);  // vertex -> a wedge of it
   const auto region_of = [&](std::uint32_t w) {
     Key out{mesh.wedge_vertex[w]};
     if (!materials.empty()) out[3] = static_cast<std::uint32_t>(materials[w]);
@@ -167,7 +166,7 @@ void find_chart_vertices(const std::vector<std::int32_t>& materials,
   for (std::uint32_t w = 0; w < mesh.n_wedges() && !has_several; ++w) {
     if (!is_drawn[w]) continue;
     std::uint32_t& other = drawn[mesh.wedge_vertex[w]];
-    if (other == 0xffffffffu) other = w;
+    if (other == kNoWedge) other = w;
     has_several = region_of(w) != region_of(other);
   }
   if (!has_several) return;
@@ -341,6 +340,7 @@ WedgeTable::WedgeTable(const WedgeMesh& mesh)
 }
 
 bool WedgeTable::add_pair(const Pair& pair) {
+  if (!pairs_.empty() && pairs_.back() == pair) return true;
   const std::uint32_t from = chart_vertex(pair.from), to = chart_vertex(pair.to);
   const auto same = [&](const Pair& p) { return chart_vertex(p.from) == from; };
   const auto met = std::find_if(chart_pairs_.begin(), chart_pairs_.end(), same);
@@ -383,63 +383,116 @@ std::uint32_t WedgeTable::find_nearest(const CollapseMesh& mesh, std::uint32_t v
   return nearest;
 }
 
+void WedgeTable::gather_from(const CollapseMesh& mesh, std::uint32_t u) {
+  if (from_.is(u, mesh)) return;
+  from_ = {u, mesh.n_triangles()};
+  matched_to_ = kNoVertex;
+  spokes_.clear(), from_wedges_.clear();
+  const auto push = [&](std::uint32_t c) {
+    const std::uint32_t k = c % 3, a = c + 1 - 3 * (k == 2), b = c - 1 + 3 * (k == 0);
+    const std::uint32_t wedge = corners_[c];
+    spokes_.push_back({wedge, mesh.vertex_at(a), mesh.vertex_at(b), corners_[a], corners_[b]});
+    if (std::find(from_wedges_.begin(), from_wedges_.end(), wedge) == from_wedges_.end())
+      from_wedges_.push_back(wedge);
+  };
+  mesh.for_each_sheet_corner(u, push);
+  n_sheet_spokes_ = spokes_.size();
+  if (mesh.has_copies()) mesh.for_each_corner(u, push);
+}
+
+bool WedgeTable::pair_up(std::span<const Spoke> spokes, std::uint32_t v) {
+  for (const Spoke& s : spokes) {
+    if (s.a != v && s.b != v) continue;
+    if (!add_pair({s.wedge_u, s.a == v ? s.wedge_a : s.wedge_b})) return false;
+  }
+  return true;
+}
+
 // Pairs the wedges of u that only surviving triangles have.
-bool WedgeTable::pair_rest(const CollapseMesh& mesh, std::uint32_t u) {
-  bool fits = true;
+bool WedgeTable::pair_rest() {
   first_further_ = pairs_.size();
-  mesh.for_each_corner(u, [&](std::uint32_t c) {
-    const std::uint32_t from = corners_[c];
-    for (const Pair& p : pairs_)
-      if (p.from == from) return;
+  for (const std::uint32_t from : from_wedges_) {
+    if (std::any_of(pairs_.begin(), pairs_.end(), [&](const Pair& p) { return p.from == from; }))
+      continue;
     const auto same = [&](const Pair& p) { return chart_vertex(p.from) == chart_vertex(from); };
     const auto met = std::find_if(chart_pairs_.begin(), chart_pairs_.end(), same);
-    fits = fits && met != chart_pairs_.end() && add_pair({from, met->to});
-  });
+    if (met == chart_pairs_.end() || !add_pair({from, met->to})) return false;
+  }
   end_further_ = pairs_.size();
-  return fits;
+  return true;
 }
 
 bool WedgeTable::match(const CollapseMesh& mesh, std::uint32_t u, std::uint32_t v) {
+  gather_from(mesh, u);
+  if (matched_to_ == v) {
+    if (fits_) pairs_.resize(n_matched_);
+    return fits_;
+  }
+  fits_ = find_pairs(v);
+  matched_to_ = v, n_matched_ = pairs_.size();
+  return fits_;
+}
+
+bool WedgeTable::find_pairs(std::uint32_t v) {
   pairs_.clear(), chart_pairs_.clear();
-  bool fits = true;
-  const auto pair_up = [&](std::uint32_t c) {
-    const std::uint32_t t = 3 * (c / 3);
-    for (std::uint32_t other = t; other < t + 3; ++other)
-      if (mesh.vertex_at(other) == v) fits = fits && add_pair({corners_[c], corners_[other]});
-  };
-  mesh.for_each_sheet_corner(u, pair_up);
+  const std::span<const Spoke> spokes(spokes_);
+  const bool sheet_fits = pair_up(spokes.first(n_sheet_spokes_), v);
   n_sheet_pairs_ = chart_pairs_.size();
-  if (mesh.has_copies()) mesh.for_each_corner(u, pair_up);
-  return fits && pair_rest(mesh, u) && pairs_.size() <= kMostPairs;
+  return sheet_fits && pair_up(spokes.subspan(n_sheet_spokes_), v) && pair_rest() &&
+         pairs_.size() <= kMostPairs;
+}
+
+void WedgeTable::gather_to(const CollapseMesh& mesh, std::uint32_t v) {
+  if (to_.is(v, mesh)) return;
+  to_ = {v, mesh.n_triangles()};
+  to_wedges_.clear(), chart_wedges_.clear();
+  std::uint32_t last = kNoWedge;
+  mesh.for_each_corner(v, [&](std::uint32_t c) {
+    const std::uint32_t wedge = corners_[c];
+    if (std::exchange(last, wedge) == wedge) return;
+    if (std::find(to_wedges_.begin(), to_wedges_.end(), wedge) != to_wedges_.end()) return;
+    to_wedges_.push_back(wedge);
+    const auto same = [&](std::uint32_t w) { return chart_vertex(w) == chart_vertex(wedge); };
+    if (std::none_of(chart_wedges_.begin(), chart_wedges_.end(), same))
+      chart_wedges_.push_back(wedge);
+  });
+}
+
+const std::vector<std::uint32_t>& WedgeTable::chart_wedges(const CollapseMesh& mesh,
+                                                           std::uint32_t v) {
+  gather_to(mesh, v);
+  return chart_wedges_;
 }
 
 void WedgeTable::choose_by_normals(const CollapseMesh& mesh, std::uint32_t v) {
+  matched_to_ = kNoVertex;
   for (std::size_t i = first_further_; i < end_further_; ++i)
     pairs_[i].to = find_nearest(mesh, v, pairs_[i]);
 }
 
 bool WedgeTable::match_both(const CollapseMesh& mesh, std::uint32_t v) {
   if (chart_vertex_.empty()) return true;
+  gather_to(mesh, v);
   const std::size_t n_pairs = pairs_.size();
-  bool fits = true;
-  mesh.for_each_corner(v, [&](std::uint32_t c) {
-    const std::uint32_t to = corners_[c], to_vertex = chart_vertex(to);
+  const auto pair_back = [&](std::uint32_t to) {
     const Pair* met = nullptr;
     for (const Pair& p : chart_pairs_) {
-      if (chart_vertex(p.to) != to_vertex) continue;
-      fits = fits && met == nullptr;
+      if (chart_vertex(p.to) != chart_vertex(to)) continue;
+      if (met != nullptr) return false;
       met = &p;
     }
-    fits = fits && met != nullptr;
-    if (fits &&
+    if (met != nullptr &&
         std::none_of(pairs_.begin(), pairs_.end(), [&](const Pair& p) { return p.to == to; }))
       pairs_.push_back({met->from, to});
-  });
+    return met != nullptr;
+  };
+  const bool fits = std::all_of(to_wedges_.begin(), to_wedges_.end(), pair_back);
   if (!fits) pairs_.resize(n_pairs);
   return fits;
 }
 
 void WedgeTable::apply(const CollapseTrace& trace) {
+  from_ = to_ = {};
   for (const std::uint32_t c : trace.moved) {
     const auto found = std::find_if(pairs_.begin(), pairs_.end(),
                                     [&](const Pair& p) { return p.from == corners_[c]; });

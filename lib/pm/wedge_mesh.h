@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <span>
 #include <vector>
 
 #include "mesh/charts.h"
@@ -11,6 +12,8 @@
 #include "pm/collapse_mesh.h"
 
 namespace viewcell {
+
+inline constexpr std::uint32_t kNoWedge = 0xffffffffu;
 
 /// A wedge is a vertex with one set of attributes (normal, colour, texture coordinates, material of
 /// its faces). Where several vertices of the file stand at one position, or are welded, the first
@@ -71,6 +74,7 @@ class WedgeTable {
  public:
   struct Pair {
     std::uint32_t from, to;  ///< wedges of u and of v
+    bool operator==(const Pair&) const = default;
   };
 
   explicit WedgeTable(const WedgeMesh& mesh);
@@ -100,12 +104,32 @@ class WedgeTable {
   /// After match(): further wedges of u go to the wedge of v in their chart whose normal is
   /// nearest.
   void choose_by_normals(const CollapseMesh& mesh, std::uint32_t v);
+  /// A wedge of v in each of its charts, those of copies too. Valid until it is asked for another.
+  const std::vector<std::uint32_t>& chart_wedges(const CollapseMesh& mesh, std::uint32_t v);
   /// Gives the moved corners the wedges of the last match, which must have been this collapse.
   void apply(const CollapseTrace& trace);
 
  private:
+  struct Spoke {  // a triangle (u, a, b)
+    std::uint32_t wedge_u, a, b, wedge_a, wedge_b;
+  };
+  // What was gone through last, of one vertex while the mesh is what it was: costs are asked for
+  // one u and many v, or for one v and many u.
+  struct Gathered {
+    std::uint32_t of = kNoVertex;
+    std::size_t n_triangles = 0;  // of the mesh: each change takes some
+    bool is(std::uint32_t v, const CollapseMesh& mesh) const {
+      return of == v && n_triangles == mesh.n_triangles();
+    }
+  };
+  static constexpr std::uint32_t kNoVertex = 0xffffffffu;
+
+  void gather_from(const CollapseMesh& mesh, std::uint32_t u);
+  void gather_to(const CollapseMesh& mesh, std::uint32_t v);
+  bool find_pairs(std::uint32_t v);
+  bool pair_up(std::span<const Spoke> spokes, std::uint32_t v);
   bool add_pair(const Pair& pair);
-  bool pair_rest(const CollapseMesh& mesh, std::uint32_t u);
+  bool pair_rest();
   bool keeps_texture(const Pair& pair) const;
   std::uint32_t find_nearest(const CollapseMesh& mesh, std::uint32_t v, const Pair& pair) const;
   std::vector<std::uint32_t> chart_vertex_, texture_vertex_;  // the latter if charts are finer
@@ -114,6 +138,15 @@ class WedgeTable {
   LargeVector<std::uint32_t> corners_;
   std::vector<Pair> pairs_, chart_pairs_;
   std::size_t n_sheet_pairs_ = 0, first_further_ = 0, end_further_ = 0;  // of pairs_
+  Gathered from_, to_;
+  std::vector<Spoke> spokes_;  // of from_; those of copies behind n_sheet_spokes_
+  std::size_t n_sheet_spokes_ = 0;
+  std::vector<std::uint32_t> from_wedges_, to_wedges_;  // each once
+  std::vector<std::uint32_t> chart_wedges_;             // of to_, one a chart
+  // The last match, while from_ is what it was matched from.
+  std::uint32_t matched_to_ = kNoVertex;
+  std::size_t n_matched_ = 0;  // of pairs_
+  bool fits_ = false;
 };
 
 }  // namespace viewcell

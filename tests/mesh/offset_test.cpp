@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 
 #include "base/random.h"
 
@@ -20,6 +22,14 @@ TEST(Offset, IsNoneNearTheOrigin) {
   EXPECT_EQ(choose_offset({}), glm::dvec3(0));
   for (const double x : {0.0, 1.0, double{0.1f}})
     EXPECT_EQ(choose_offset(box_about(glm::dvec3(x), 0)), glm::dvec3(0));
+  // A point that text has in nine digits is the float that it was.
+  glm::dvec3 written;
+  for (int k = 0; k < 3; ++k) {
+    char digits[32];
+    std::snprintf(digits, sizeof digits, "%.9g", double{1.8677330e25f / static_cast<float>(k + 1)});
+    written[k] = std::strtod(digits, nullptr);
+  }
+  EXPECT_EQ(choose_offset(box_about(written, 0)), glm::dvec3(0));
 }
 
 // Metres of a map: half a metre from float to float, 500 and 4,649 km from its origin.

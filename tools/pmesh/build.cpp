@@ -4,13 +4,13 @@
 #include <cstdio>
 #include <numeric>
 
+#include "base/large_vector.h"
 #include "common/mesh_input.h"
 #include "common/provenance.h"
 #include "common/stopwatch.h"
 #include "mesh/used_vertices.h"
 #include "pm/pm_file.h"
 #include "pmesh/commands.h"
-#include "uv/chart_map.h"
 
 namespace viewcell {
 namespace {
@@ -114,18 +114,18 @@ Remarks remark_on(const BuildResult& result) {
 // Charts are to blame where they are the reason of most refusals, or hardly more faces are left
 // than charts (a metric that measures within charts refuses nothing: it has no cost).
 void remark_charts(const Tool& tool, const PmeshArguments& a, const TriMesh& mesh,
-                   const CollapseCounts& counts, std::size_t n_base) {
+                   const BuildResult& result, std::size_t n_base) {
   constexpr std::size_t kMuch = 10;     // a tenth of the faces is left
   constexpr std::size_t kFewFaces = 4;  // a chart
   constexpr std::size_t kHundreds = 200;
   if (mesh.texcoords.empty() || n_base <= a.build.target_faces || std::isfinite(a.build.max_cost) ||
       a.bounded)
     return;
-  const std::size_t n_charts = find_charts(mesh).size();
+  const std::size_t n_charts = result.n_charts;
   if (n_base * kMuch <= mesh.triangles.size() && n_charts < kHundreds) return;
-  const std::size_t by_chart = counts.n_refused[static_cast<std::size_t>(Refusal::chart)];
-  const std::size_t all =
-      std::accumulate(counts.n_refused.begin() + 1, counts.n_refused.end(), std::size_t{0});
+  const auto& n_refused = result.counts.n_refused;
+  const std::size_t by_chart = n_refused[static_cast<std::size_t>(Refusal::chart)];
+  const std::size_t all = std::accumulate(n_refused.begin() + 1, n_refused.end(), std::size_t{0});
   if (n_charts < 2 || (2 * by_chart <= all && n_base > kFewFaces * n_charts)) return;
   const char* how =
       texture_needs(a.build).coordinates ? "--metric qem3 --no-texture" : "--no-texture";
@@ -139,6 +139,7 @@ void remark_charts(const Tool& tool, const PmeshArguments& a, const TriMesh& mes
 }  // namespace
 
 int build(const Tool& tool, const PmeshArguments& a) {
+  keep_freed_memory();
   Stopwatch watch;
   std::string hash;
   TriMesh mesh = read_mesh_input(tool, a.model, &hash);
@@ -163,7 +164,7 @@ int build(const Tool& tool, const PmeshArguments& a) {
     tool.say(std::to_string(n_faces) + " -> " + std::to_string(n_base) + " faces, " +
              std::to_string(counts.n_collapses) +
              " collapses; refused: " + format_refusals(counts));
-  remark_charts(tool, a, mesh, counts, n_base);
+  remark_charts(tool, a, mesh, result, n_base);
   tool.report({{"faces_in", n_faces},
                {"faces_base", n_base},
                {"collapses", counts.n_collapses},
