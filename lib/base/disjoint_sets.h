@@ -25,8 +25,9 @@ class DisjointSets {
   /// True when a and b were in two sets.
   bool join(std::uint32_t a, std::uint32_t b) {
     a = find(a), b = find(b);
+    if (a == b) return false;
     parents_[std::max(a, b)] = std::min(a, b);
-    return a != b;
+    return true;
   }
 
  private:

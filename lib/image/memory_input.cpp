@@ -1,7 +1,9 @@
 #include "image/memory_input.h"
 
+#include <algorithm>
 #include <array>
 #include <cstring>
+#include <vector>
 
 namespace viewcell {
 namespace {
@@ -121,6 +123,34 @@ MemoryInput open_memory(std::string_view bytes, const std::string& file, const I
   check_spec(picture, bytes.size(), file, limits);
   remark_spec(picture, file, remarks);
   return picture;
+}
+
+// By rows or tiles, one at a time: OpenImageIO takes memory for whole strips, whatever their header
+// says, decodes zip by itself, and takes what fails for black.
+bool read_tiff(MemoryInput& picture, int n_channels, const OIIO::TypeDesc& type, char* out) {
+  const OIIO::ImageSpec& spec = picture.spec;
+  const bool is_tiled = spec.tile_width > 0;
+  const int width = is_tiled ? spec.tile_width : spec.width,
+            height = is_tiled ? spec.tile_height : 1;
+  const std::size_t n_from = type.size() * static_cast<std::size_t>(spec.nchannels);
+  const std::size_t n_to = type.size() * static_cast<std::size_t>(n_channels);
+  const auto index = [](int x, int y, int row) {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(row) +
+           static_cast<std::size_t>(x);
+  };
+  std::vector<char> block(index(0, height, width) * n_from);
+  for (int y = 0; y < spec.height; y += height)
+    for (int x = 0; x < spec.width; x += width) {
+      const bool is_read =
+          is_tiled ? picture.input->read_tile(spec.x + x, spec.y + y, 0, type, block.data())
+                   : picture.input->read_scanline(spec.y + y, 0, type, block.data());
+      if (!is_read) return false;
+      for (int j = 0; j < std::min(height, spec.height - y); ++j)
+        for (int i = 0; i < std::min(width, spec.width - x); ++i)
+          std::memcpy(out + n_to * index(x + i, y + j, spec.width),
+                      block.data() + n_from * index(i, j, width), n_to);
+    }
+  return true;
 }
 
 }  // namespace viewcell

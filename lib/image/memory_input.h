@@ -42,6 +42,9 @@ struct Samples {
   const Sample* pixel(std::size_t p) const { return data.get() + p * n_channels; }
 };
 
+/// Of a TIFF, for decode().
+bool read_tiff(MemoryInput& picture, int n_channels, const OIIO::TypeDesc& type, char* out);
+
 /// Channels 0 .. n_channels - 1 of the picture. Throws InputError(file).
 template <typename Sample>
 Samples<Sample> decode(MemoryInput& picture, int n_channels, const std::string& file) {
@@ -51,9 +54,12 @@ Samples<Sample> decode(MemoryInput& picture, int n_channels, const std::string& 
       static_cast<std::size_t>(picture.spec.width) * static_cast<std::size_t>(picture.spec.height);
   Samples<Sample> samples{std::unique_ptr<Sample[]>(new Sample[n_pixels * n]), n};
   const bool is_read = call_library(file, [&] {
+    if (picture.format == ImageFormat::tiff)
+      return read_tiff(picture, n_channels, type, reinterpret_cast<char*>(samples.data.get()));
     return picture.input->read_image(0, 0, 0, n_channels, type, samples.data.get());
   });
-  if (!is_read) throw InputError(file, "pixels", first_line(picture.input->geterror()));
+  if (!is_read || picture.input->has_error())  // it may say so, and that all went well
+    throw InputError(file, "pixels", first_line(picture.input->geterror()));
   return samples;
 }
 

@@ -35,19 +35,17 @@ bool is_finite(const glm::dvec3& p) {
 
 // The rim as it is met when walked from v.
 struct Walk {
-  const CollapseStar::Sector& sector;
+  std::span<const CollapseStar::Rim> rim;
   std::size_t v;
   int step;
   std::size_t index(std::size_t i) const {
-    const std::size_t n = sector.rim.size();
+    const std::size_t n = rim.size();
     if (step > 0) return v + i < n ? v + i : v + i - n;
     return v >= i ? v - i : v + n - i;
   }
-  const CollapseStar::Rim& operator[](std::size_t i) const { return sector.rim[index(i)]; }
+  const CollapseStar::Rim& operator[](std::size_t i) const { return rim[index(i)]; }
   // Of the triangle from the i-th neighbour to the next.
-  std::uint32_t face(std::size_t i) const {
-    return sector.rim[step > 0 ? index(i) : index(i + 1)].face;
-  }
+  std::uint32_t face(std::size_t i) const { return rim[step > 0 ? index(i) : index(i + 1)].face; }
 };
 
 }  // namespace
@@ -73,32 +71,32 @@ bool CollapseMap::locate(std::uint32_t u, std::uint32_t v) {
 bool CollapseMap::locate_all(std::uint32_t v, const glm::dvec3& apex,
                              std::vector<Location>& to) const {
   for (const Sector& sector : star_.sectors()) {
-    const std::size_t n = sector.rim.size();
+    const std::span<const CollapseStar::Rim> rim = sector.rim;
+    const std::size_t n = rim.size();
     std::size_t i = 0;
-    while (i < n && sector.rim[i].vertex != v) ++i;
+    while (i < n && rim[i].vertex != v) ++i;
     if (i == n) {
       if (!locate_moved(sector, v, apex, to)) return false;
     } else if (sector.is_closed || i == 0 || i + 1 == n) {
-      if (!locate_at(sector, i, apex, to)) return false;
-    } else {
-      if (!sector.is_cut) return false;
-      Sector before = sector, after = sector;
-      before.rim = sector.rim.first(i + 1), after.rim = sector.rim.subspan(i);
-      if (!locate_at(before, i, apex, to) || !locate_at(after, 0, apex, to)) return false;
+      if (!locate_at(sector, rim, i, apex, to)) return false;
+    } else if (!sector.is_cut || !locate_at(sector, rim.first(i + 1), i, apex, to) ||
+               !locate_at(sector, rim.subspan(i), 0, apex, to)) {
+      return false;
     }
   }
   return true;
 }
 
-// v is the i-th neighbour.
-bool CollapseMap::locate_at(const Sector& sector, std::size_t i, const glm::dvec3& apex,
+// v is the i-th of the rim, which is the sector's or one side's.
+bool CollapseMap::locate_at(const Sector& sector, std::span<const CollapseStar::Rim> rim,
+                            std::size_t i, const glm::dvec3& apex,
                             std::vector<Location>& to) const {
-  Location& location = to.emplace_back();
-  location.sector = sector;
-  location.v = i;
-  location.step = sector.is_closed || i == 0 ? 1 : -1;
-  location.apex = apex;
-  return choose_face(location);
+  to.push_back({.sector = &sector,
+                .rim = rim,
+                .step = sector.is_closed || i == 0 ? 1 : -1,
+                .v = i,
+                .apex = apex});
+  return choose_face(to.back());
 }
 
 // In the texture it goes where a fan of its chart goes that v is in; without one u would leave the
@@ -106,10 +104,8 @@ bool CollapseMap::locate_at(const Sector& sector, std::size_t i, const glm::dvec
 bool CollapseMap::locate_moved(const Sector& sector, std::uint32_t v, const glm::dvec3& apex,
                                std::vector<Location>& to) const {
   if (matching_ == Matching::texture) return false;
-  Location& location = to.emplace_back();
-  location.sector = sector;
-  location.is_moved = true;
-  location.apex = apex;
+  to.push_back({.sector = &sector, .rim = sector.rim, .is_moved = true, .apex = apex});
+  Location& location = to.back();
   const CollapseStar::Rim* met = nullptr;
   for (const Sector& other : star_.sectors())
     if (other.chart == sector.chart)
@@ -127,20 +123,19 @@ bool CollapseMap::locate_moved(const Sector& sector, std::uint32_t v, const glm:
 // New faces are (v, rim[j], rim[j + 1]) for j in [1, size - 2], open or closed.
 bool CollapseMap::choose_face(Location& location) const {
   location.after = {glm::dvec3(kInfinity)};
-  if (!location.sector.is_closed)
+  if (!location.sector->is_closed)
     choose_on_edge(location);
   else if (matching_ == Matching::texture)
     choose_by_texture(location);
   else
     choose_by_distance(location);
-  location.face = Walk{location.sector, location.v, location.step}.face(location.middle);
+  location.face = Walk{location.rim, location.v, location.step}.face(location.middle);
   return is_finite(location.after.at);
 }
 
 void CollapseMap::choose_on_edge(Location& location) const {
-  const Sector& sector = location.sector;
-  const Walk rim{sector, location.v, location.step};
-  const std::size_t n = sector.rim.size();
+  const Walk rim{location.rim, location.v, location.step};
+  const std::size_t n = location.rim.size();
   location.middle = n - 2;
   const CollapseStar::Rim &v = rim[0], &far = rim[n - 1];
   double t = 0;
@@ -157,20 +152,19 @@ void CollapseMap::choose_on_edge(Location& location) const {
 
 // The new face that u's texture coordinates lie in, or the one that they are least outside of.
 void CollapseMap::choose_by_texture(Location& location) const {
-  const Sector& sector = location.sector;
-  const Walk rim{sector, location.v, location.step};
+  const Walk rim{location.rim, location.v, location.step};
   double best = -kInfinity;
   const CollapseStar::Rim& v = rim[0];
-  for (std::size_t j = 1; j + 1 < sector.rim.size(); ++j) {
+  for (std::size_t j = 1; j + 1 < location.rim.size(); ++j) {
     const CollapseStar::Rim &b = rim[j], &c = rim[j + 1];
     const double area = glm::cross(b.uv - v.uv, c.uv - v.uv);
     if (area == 0) continue;
     glm::dvec3 w(glm::cross(b.uv, c.uv), glm::cross(c.uv, v.uv), glm::cross(v.uv, b.uv));
-    w /= area;
-    const double inside = std::min({w.x, w.y, w.z});
-    if (!(inside > best)) continue;
-    best = inside;
+    const double least = area > 0 ? std::min({w.x, w.y, w.z}) : -std::max({w.x, w.y, w.z});
+    if (!(least > best * std::abs(area))) continue;
+    best = least / std::abs(area);
     location.middle = j;
+    w /= area;
     w = glm::max(w, glm::dvec3(0));
     w /= w.x + w.y + w.z;
     location.after = {w.x * location.apex + w.y * b.to + w.z * c.to,
@@ -179,10 +173,9 @@ void CollapseMap::choose_by_texture(Location& location) const {
 }
 
 void CollapseMap::choose_by_distance(Location& location) const {
-  const Sector& sector = location.sector;
-  const Walk rim{sector, location.v, location.step};
+  const Walk rim{location.rim, location.v, location.step};
   double best = kInfinity;
-  for (std::size_t j = 1; j + 1 < sector.rim.size(); ++j) {
+  for (std::size_t j = 1; j + 1 < location.rim.size(); ++j) {
     const glm::dvec3 p =
         closest_point_on_triangle(glm::dvec3(0), location.apex, rim[j].to, rim[j + 1].to);
     const double distance2 = glm::dot(p, p);
@@ -213,8 +206,8 @@ bool CollapseMap::build(std::uint32_t u, std::uint32_t v, const glm::dvec3& apex
 bool CollapseMap::build_located(std::uint32_t v) {
   for (const Location& location : last_) {
     if (location.is_moved) {
-      if (!move_sector(location.sector, {location.apex, location.apex_uv})) return false;
-    } else if (location.sector.rim.size() > 2) {
+      if (!move_sector(*location.sector, {location.apex, location.apex_uv})) return false;
+    } else if (location.rim.size() > 2) {
       build_sector(location);
     } else if (!build_vanishing(location, v)) {
       return false;
@@ -224,16 +217,15 @@ bool CollapseMap::build_located(std::uint32_t v) {
 }
 
 void CollapseMap::build_sector(const Location& location) {
-  const Sector& sector = location.sector;
-  const Walk rim{sector, location.v, location.step};
-  const std::size_t n = sector.rim.size(), m = location.middle;
+  const Walk rim{location.rim, location.v, location.step};
+  const std::size_t n = location.rim.size(), m = location.middle;
   const FanPoint apex{location.apex, rim[0].uv};
-  overlay_.start(apex, sector.origin, location.step < 0);
+  overlay_.start(apex, location.sector->origin, location.step < 0);
   overlay_.add_ray(apex, rim.face(0));
   for (std::size_t i = 1; i < n; ++i) overlay_.add_ray({rim[i].to, rim[i].uv}, rim.face(i));
   overlay_.add_old_apex(m, location.after);
   overlay_.add_side(0, true, m, apex, location.after);
-  if (sector.is_closed) overlay_.add_side(n, false, n - 1 - m, apex, location.after);
+  if (location.sector->is_closed) overlay_.add_side(n, false, n - 1 - m, apex, location.after);
 }
 
 // A face at the edge a b that has not the vertex `but`.
@@ -265,15 +257,14 @@ std::optional<std::uint32_t> CollapseMap::find_other_face(std::uint32_t v,
 // A triangle that is alone in its sector vanishes but for an edge: some face at that edge inherits
 // its surface. Where it was a fin, the edge goes with it, and a face at v inherits.
 bool CollapseMap::build_vanishing(const Location& location, std::uint32_t v) {
-  const Sector& sector = location.sector;
-  const Walk rim{sector, location.v, location.step};
+  const Walk rim{location.rim, location.v, location.step};
   const std::uint32_t u = star_.of();
   const auto at_edge = find_face_at(v, rim[1].vertex, u);
   const auto inheriting_face = at_edge ? at_edge : find_other_face(v, u);
   if (!inheriting_face) return false;
   const std::uint32_t to = star_.index_of(*inheriting_face);
   const FanPoint apex{location.apex, rim[0].uv};
-  overlay_.start(apex, sector.origin, location.step < 0);
+  overlay_.start(apex, location.sector->origin, location.step < 0);
   overlay_.add_ray(apex, rim.face(0));
   overlay_.add_ray({rim[1].to, rim[1].uv}, rim.face(0));
   at_edge ? overlay_.add_vanishing_face(to, location.after) : overlay_.add_vanishing_fin(to);
@@ -379,7 +370,7 @@ void CollapseMap::move_closed(const Sector& sector, const FanPoint& apex, const 
 
 void CollapseMap::move_open(const Sector& sector, const FanPoint& apex, const Move& move) {
   const std::size_t n = sector.rim.size();
-  const Walk rim{sector, move.first, move.first == 0 ? 1 : -1};
+  const Walk rim{sector.rim, move.first, move.first == 0 ? 1 : -1};
   overlay_.start(apex, sector.origin, move.first != 0);
   for (std::size_t i = 0; i < n; ++i)
     overlay_.add_ray({rim[i].to, rim[i].uv}, i + 1 < n ? rim.face(i) : 0);

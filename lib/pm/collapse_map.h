@@ -86,15 +86,16 @@ class CollapseMap {
   // Where u goes in one sector, or one side of v in it: into the new face (v, rim middle, rim
   // middle + 1), counted from v.
   struct Location {
-    Sector sector;
-    bool is_moved = false;  // v is not in the sector, which keeps its faces
-    std::size_t v = 0;      // of the sector's rim
-    int step = 1;           // the way that the sector is walked from v
+    const Sector* sector;
+    std::span<const CollapseStar::Rim> rim;  // the sector's, or one side's
+    bool is_moved = false;                   // v is not in the sector, which keeps its faces
+    int step = 1;                            // the way that the rim is walked from v
+    std::size_t v = 0;                       // of the rim
     std::size_t middle = 0;
     std::uint32_t face = 0;
     glm::dvec3 apex{0};     // v, relative to u
-    glm::dvec2 apex_uv{0};  // likewise; of sectors that are moved
-    FanPoint after;         // the point of the new surface for u
+    glm::dvec2 apex_uv{0};  // of sectors that are moved
+    FanPoint after{};       // the point of the new surface for u
   };
   // How a sector's apex moves: the new one lies in the old face of rim `first`, of open sectors on
   // the edge to it, the first or the last; the old one in the new face of rim `second`.
@@ -110,8 +111,8 @@ class CollapseMap {
 
   bool gather(std::uint32_t u);
   bool locate_all(std::uint32_t v, const glm::dvec3& apex, std::vector<Location>& to) const;
-  bool locate_at(const Sector& sector, std::size_t i, const glm::dvec3& apex,
-                 std::vector<Location>& to) const;
+  bool locate_at(const Sector& sector, std::span<const CollapseStar::Rim> rim, std::size_t i,
+                 const glm::dvec3& apex, std::vector<Location>& to) const;
   bool locate_moved(const Sector& sector, std::uint32_t v, const glm::dvec3& apex,
                     std::vector<Location>& to) const;
   bool choose_face(Location& location) const;

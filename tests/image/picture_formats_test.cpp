@@ -7,6 +7,7 @@
 #include <chrono>
 
 #include "base/file.h"
+#include "base/random.h"
 #include "common/expect_input_error.h"
 #include "common/mutate.h"
 #include "common/temporary_folder.h"
@@ -310,6 +311,56 @@ TEST(PictureBombs, TiffAndExr) {
       }
       EXPECT_INPUT_ERROR(decode_image_rgba8(bytes, "x"), "16384 x 16384 pixels");
     }
+  }
+}
+
+// How many rows a strip has says nothing of the picture; of what cannot be decoded nothing is
+// shown.
+TEST(PictureFormats, TiffStripsAndTiles) {
+  using namespace std::string_literals;
+  const TemporaryFolder folder;
+  const auto file = (folder / "a.tif").string();
+  const int width = 400, height = 30;
+  Random random(1);
+  std::vector<std::uint8_t> samples(static_cast<std::size_t>(4 * width * height));
+  for (std::uint8_t& sample : samples) sample = static_cast<std::uint8_t>(random.below(256));
+  const auto written = [&](const char* compression, int n_channels, int tile) {
+    OIIO::ImageSpec spec(width, height, n_channels, OIIO::TypeUInt8);
+    spec.attribute("compression", compression);
+    spec.attribute("tiff:RowsPerStrip", height);
+    spec.tile_width = spec.tile_height = tile;
+    const auto output = OIIO::ImageOutput::create(file);
+    EXPECT_TRUE(output->open(file, spec));
+    EXPECT_TRUE(output->write_image(OIIO::TypeUInt8, samples.data()));
+    output->close();
+    return read_file(file);
+  };
+  for (const char* compression : {"none", "zip", "lzw", "packbits"})
+    for (const int n_channels : {1, 2, 3, 4})
+      for (const int tile : {0, 16, 64}) {
+        SCOPED_TRACE(std::string(compression) + ", " + std::to_string(n_channels) + ", " +
+                     std::to_string(tile));
+        const std::string good = written(compression, n_channels, tile);
+        const ImageRgba8 picture = decode(good);
+        for (const auto& [x, y] : {std::pair(0, 0), {399, 29}, {63, 17}, {64, 15}})
+          EXPECT_EQ(picture.at(x, y)[0],
+                    samples[static_cast<std::size_t>(n_channels * (y * width + x))]);
+        if (compression == "zip"s) {
+          std::string broken = good;
+          broken.replace(good.find("\x78\x9c"s) + 2, 1, "\xff");  // a block of no kind
+          EXPECT_INPUT_ERROR(decode(broken), "pixels");
+        }
+        EXPECT_THROW(decode(good.substr(0, good.size() / 2)), InputError);
+      }
+  const std::string good = written("zip", 1, 0), rows = "\x16\x01\x03\0\x01\0\0\0\x1e\0"s;
+  ASSERT_NE(good.find(rows), std::string::npos);
+  for (const std::uint32_t n : {0xffffffffu, 0x7fffffffu, 2000000000u, 60000u, 64u}) {
+    SCOPED_TRACE(n);
+    const Costs before = costs_now();
+    std::string many = good;
+    many.replace(good.find(rows), 12, "\x16\x01\x04\0\x01\0\0\0"s + le32(n));
+    EXPECT_EQ(decode(many).pixels, decode(good).pixels);
+    EXPECT_LT(costs_now().memory_kib - before.memory_kib, 32 * 1024);
   }
 }
 
