@@ -4,6 +4,8 @@
 #include <cctype>
 #include <cmath>
 #include <limits>
+#include <set>
+#include <vector>
 
 #include "base/error.h"
 #include "base/file.h"
@@ -33,6 +35,22 @@ std::size_t too_deep_at(const std::string& text) {
   }
   return std::string::npos;
 }
+
+// Follows the parser, and refuses a key that stands twice in an object: of such the last would
+// count without a word.
+struct KeysOnce {
+  const std::filesystem::path& file;
+  std::vector<std::set<std::string>> open = {};  // keys so far, of the objects that it is in
+
+  bool operator()(int, Json::parse_event_t event, const Json& key) {
+    if (event == Json::parse_event_t::object_start) open.emplace_back();
+    if (event == Json::parse_event_t::object_end) open.pop_back();
+    if (event == Json::parse_event_t::key && !open.back().insert(key.get<std::string>()).second)
+      throw InputError(file.string(), "",
+                       "key '" + key.get<std::string>() + "' stands twice in an object");
+    return true;
+  }
+};
 
 bool is_flat_array(const Json& json) {
   return json.is_array() &&
@@ -114,7 +132,7 @@ Json parse_json(const std::string& text, const std::filesystem::path& file) {
     throw InputError(file.string(), place_of(text, at),
                      "JSON nested deeper than " + std::to_string(kMaxDepth));
   try {
-    return Json::parse(text);
+    return Json::parse(text, KeysOnce{file});
   } catch (const Json::parse_error& error) {
     throw InputError(file.string(), place_of(text, std::max<std::size_t>(error.byte, 1) - 1),
                      "not valid JSON");

@@ -112,6 +112,9 @@ void SectionReader::read_table(std::uint32_t kind, const std::string& what) {
     const Section& section = sections_[i];
     if (section.offset > size || section.n_bytes > size - section.offset)
       fail(std::string(section.tag, strnlen(section.tag, 8)), "reaches past the end of the file");
+    for (std::size_t k = 0; k < i; ++k)
+      if (std::memcmp(section.tag, sections_[k].tag, sizeof section.tag) == 0)
+        fail(std::string(section.tag, strnlen(section.tag, 8)), "stands twice");
     end = std::max(end, section.offset + section.n_bytes);
   }
   if (end != size) fail("", std::to_string(size - end) + " bytes follow its last section");

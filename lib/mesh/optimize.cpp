@@ -56,8 +56,18 @@ std::vector<std::uint32_t> make_fetch_order(const std::vector<Triangle>& triangl
   return std::move(used.new_index);
 }
 
-std::vector<DetailLevel> build_meshopt_levels(const TriMesh& mesh, const DetailOptions& options) {
+std::vector<DetailLevel> build_meshopt_levels(const TriMesh& all, const DetailOptions& options) {
   VIEWCELL_CHECK(options.ratio > 0 && options.ratio < 1, options.ratio);
+  // A vertex that no triangle uses, at the place of one that some do, would hold that one where it
+  // is.
+  const UsedVertices used = find_used_vertices(all.triangles, all.positions.size());
+  const bool is_compact = used.size() == all.positions.size();
+  TriMesh compacted;
+  if (!is_compact) {
+    compacted.positions = used.pick(all.positions);
+    compacted.triangles = used.renumber(all.triangles);
+  }
+  const TriMesh& mesh = is_compact ? all : compacted;
   constexpr double kLeastGain = 0.95;  // a level of hardly fewer triangles is not worth keeping
   std::vector<DetailLevel> levels(1);
   levels[0].triangles = optimize_index_order(mesh.triangles, mesh.positions.size());
@@ -77,6 +87,10 @@ std::vector<DetailLevel> build_meshopt_levels(const TriMesh& mesh, const DetailO
     level.error = std::max(levels.back().error, scale * static_cast<double>(relative_error));
     levels.push_back(std::move(level));
   }
+  if (is_compact) return levels;
+  for (DetailLevel& level : levels)
+    for (Triangle& t : level.triangles)
+      for (std::uint32_t& v : t) v = used.source[v];
   return levels;
 }
 

@@ -259,9 +259,15 @@ std::string check_ranges(const ProgressiveRecord& r, std::size_t n_wedges) {
   for (std::size_t v = 0; v < n; ++v)
     if (r.vertex_of[v] >= n || r.vertex_of[r.vertex_of[v]] != r.vertex_of[v])
       return "vertex " + std::to_string(v) + " is welded to none";
-  for (const Triangle& face : r.faces)
+  const auto vertex_of = [&](std::uint32_t w) {
+    return r.vertex_of[w < n ? w : r.extra_sources[w - n]];
+  };
+  for (const Triangle& face : r.faces) {
     for (const std::uint32_t w : face)
       if (w >= n_wedges) return "a face's wedge is out of range";
+    const auto a = vertex_of(face[0]), b = vertex_of(face[1]), c = vertex_of(face[2]);
+    if (a == b || b == c || c == a) return "a face has two corners at one vertex";
+  }
   for (const std::int32_t m : r.attributes.materials)
     if (m < 0 || static_cast<std::size_t>(m) >= r.attributes.material_names.size())
       return "a face's material is out of range";

@@ -317,6 +317,14 @@ std::size_t count_points(const PlotPanel& panel) {
   return n;
 }
 
+std::size_t count_numbers(const PlotPanel& panel) {
+  std::size_t n = 0;
+  for (const PlotLine& line : panel.lines)
+    for (std::size_t i = 0; i < line.x.size(); ++i)
+      n += is_drawable(line.x[i], false) && is_drawable(line.y[i], false);
+  return n;
+}
+
 std::string format_svg(const Plot& plot) {
   check(plot);
   const std::vector<LineStyle> styles = collect_styles(plot);

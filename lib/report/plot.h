@@ -42,6 +42,8 @@ inline constexpr std::size_t kMostPanels = 4;
 
 /// Points of all lines that do not break them.
 std::size_t count_points(const PlotPanel& panel);
+/// Points of all lines whose coordinates are numbers.
+std::size_t count_numbers(const PlotPanel& panel);
 
 /// 960 px wide, no scripts, no external fonts. Values beyond 1e100 break a line as well. The same
 /// plot gives the same bytes.

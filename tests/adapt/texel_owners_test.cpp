@@ -60,7 +60,7 @@ TEST(ChartMask, IsWhereCentresLie) {
 // Of random texels: never no where the answer is yes, and yes only where a tile that the box meets
 // holds another's.
 TEST(OwnerTiles, NeverMissAnother) {
-  constexpr int kSide = 8;
+  constexpr int kTile = 8;
   std::size_t n_yes = 0, n_no = 0;
   for (std::uint64_t seed = 0; seed < 60; ++seed) {
     SCOPED_TRACE(seed);
@@ -83,10 +83,10 @@ TEST(OwnerTiles, NeverMissAnother) {
           if (owner == 0 || owner == name) continue;
           has = has || (x >= lo.x && x <= hi.x && y >= lo.y && y <= hi.y);
           const auto tile = [](double at, int n) {
-            return std::clamp(static_cast<int>(std::floor(at)), 0, n - 1) / kSide;
+            return std::clamp(static_cast<int>(std::floor(at)), 0, n - 1) / kTile;
           };
-          may = may || (x / kSide >= tile(lo.x, width) && x / kSide <= tile(hi.x, width) &&
-                        y / kSide >= tile(lo.y, height) && y / kSide <= tile(hi.y, height));
+          may = may || (x / kTile >= tile(lo.x, width) && x / kTile <= tile(hi.x, width) &&
+                        y / kTile >= tile(lo.y, height) && y / kTile <= tile(hi.y, height));
         }
       const bool said = tiles.has_others(lo, hi, name);
       ASSERT_TRUE(said || !has);

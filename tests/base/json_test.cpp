@@ -54,6 +54,12 @@ TEST(ParseJson, NamesTheLineAndTheColumn) {
     EXPECT_INPUT_ERROR(parse(word), "not valid JSON");
 }
 
+TEST(ParseJson, RefusesAKeyThatStandsTwiceInAnObject) {
+  EXPECT_INPUT_ERROR(parse_json(R"({"a": 1, "b": {"c": 1, "d": [{"c": 2}], "c": 3}})", "f"),
+                     "key 'c' stands twice in an object");
+  EXPECT_EQ(parse_json(R"({"a": {"a": [{"a": 1}, {"a": 2}]}, "b": {"a": 3}})", "f")["b"]["a"], 3);
+}
+
 TEST(ParseJson, RefusesNumbersThatOverflow) {
   EXPECT_INPUT_ERROR(parse("[1e999]"), "file.json");
   EXPECT_INPUT_ERROR(parse("[-1e309]"), "file.json");

@@ -88,6 +88,12 @@ printf 'a,b\n1,nan\n2,\n' >nan.csv
 fault 1 "nan.csv: b: has no point to draw" "$plot" nan.csv --x a --y b -o x.svg
 printf 'a,b\n1,0\n2,-1\n' >zero.csv
 fault 1 "no point to draw on logarithmic axes" "$plot" zero.csv --x a --y b --log-y -o x.svg
+printf 'a,b\n1,0\n2,-1\n3,4\n5,\n' >some.csv
+expect 0 "$plot" some.csv --x a --y b --log-y -o x.svg
+grep -q 'not above 0.*(2)' "$log/err" || fail "points are left out without a word: $(cat "$log/err")"
+expect 0 "$plot" some.csv --x a --y b -o x.svg
+[ ! -s "$log/err" ] || fail "a word of nothing: $(cat "$log/err")"
+rm x.svg
 fault 1 "curves.csv: line 3: x does not grow" "$plot" curves.csv --x faces --y max --steps -o x.svg
 noise 5000 >noise.csv
 fault 1 "noise.csv" "$plot" noise.csv --x a --y b -o x.svg

@@ -87,6 +87,26 @@ TEST(DetailLevels, ErrorsAreInModelUnits) {
     EXPECT_NEAR(large[i].error, 64 * small[i].error, 1e-3 * large[i].error + 1e-12);
 }
 
+// Where a mesh was welded, vertices are left that nothing uses, at the places of others.
+TEST(DetailLevels, UnusedVerticesHoldNothing) {
+  const TriMesh mesh = make_bumpy_torus(30, 60);
+  TriMesh doubled = mesh;
+  for (std::size_t v = 0; v < mesh.positions.size(); v += 3)
+    doubled.positions.push_back(mesh.positions[v]);
+  doubled.positions.insert(doubled.positions.begin(), glm::vec3(1e6f));
+  for (Triangle& t : doubled.triangles)
+    for (std::uint32_t& v : t) ++v;
+  const auto levels = build_meshopt_levels(mesh), others = build_meshopt_levels(doubled);
+  ASSERT_EQ(levels.size(), others.size());
+  for (std::size_t i = 0; i < levels.size(); ++i) {
+    EXPECT_EQ(levels[i].error, others[i].error);
+    std::vector<Triangle> moved = levels[i].triangles;
+    for (Triangle& t : moved)
+      for (std::uint32_t& v : t) ++v;
+    EXPECT_EQ(moved, others[i].triangles);
+  }
+}
+
 TEST(DetailLevels, SmallAndEmptyMeshes) {
   EXPECT_EQ(build_meshopt_levels({}).size(), 1u);
   TriMesh mesh;

@@ -419,6 +419,14 @@ TEST(ProgressiveMesh, SplitsThatAreNoCollapsesAreRefused) {
               r.faces[r.born[0]][0] = split.child;
               r.faces[r.born[0]][1] = split.child;
             }),
+            "a face has two corners at one vertex");
+  EXPECT_EQ(check([&](auto& r) {
+              for (std::uint32_t& w : r.faces[r.born.at(0)])
+                for (std::uint32_t v = 0; w == split.parent; ++v)
+                  if (v != split.parent && v != split.child &&
+                      std::count(r.faces[r.born[0]].begin(), r.faces[r.born[0]].end(), v) == 0)
+                    w = v;
+            }),
             "split 0 brings a face that has not the edge");
   const auto add_wedge = [&](auto& r) {  // of the child, with texture coordinates
     r.extra_sources.push_back(split.child);

@@ -70,6 +70,12 @@ int run(const Tool& tool, const Arguments& arguments) {
   const CsvTable table = parse_csv(read_file(arguments.table), arguments.table);
   const Plot plot = make_csv_plot(table, arguments.options);
   write_file(tool.common().output, format_svg(plot));
+  const CsvPlotOptions& options = arguments.options;
+  std::size_t n_off = 0;
+  for (const PlotPanel& panel : plot.panels) n_off += count_numbers(panel) - count_points(panel);
+  if (n_off > 0 && (options.log_x || options.log_y))
+    tool.remark(arguments.table,
+                {{"points that are not above 0, where a logarithmic axis has no place", n_off}});
   tool.report({{"rows", table.rows.size()}, {"panels", format_panels(plot, arguments.options)}});
   return 0;
 }

@@ -211,6 +211,8 @@ void declare_arguments(Tool& tool, PmeshArguments& a) {
 void finish_arguments(const Tool& tool, PmeshArguments& a) {
   if (tool.command("build").is_given()) finish_build(tool, a);
   if (tool.command("extract").is_given()) check_extract(tool, a);
+  if (tool.command("info").is_given() && !tool.common().output.empty())
+    throw UsageError("info writes to standard output; --json FILE writes it to a file, not -o");
 }
 
 }  // namespace viewcell
