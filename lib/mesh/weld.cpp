@@ -171,6 +171,15 @@ BorderWeld weld_borders(std::span<const glm::vec3> positions, std::span<const Tr
   return out;
 }
 
+BorderWeld close_cracks(TriMesh& mesh) {
+  std::vector<std::uint32_t> of = match_positions(mesh);
+  const BorderWeld out =
+      weld_borders(mesh.positions, mesh.triangles, {.tolerance = default_weld_tolerance(mesh)}, of);
+  if (out.n_welded > 0)
+    for (std::size_t v = 0; v < of.size(); ++v) mesh.positions[v] = mesh.positions[of[v]];
+  return out;
+}
+
 std::vector<std::uint32_t> weld_vertices(const TriMesh& mesh, const WeldOptions& options) {
   std::vector<std::uint32_t> of = match_positions(mesh);
   weld_borders(mesh.positions, mesh.triangles, options, of);

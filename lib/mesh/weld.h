@@ -45,4 +45,7 @@ struct BorderWeld {
 BorderWeld weld_borders(std::span<const glm::vec3> positions, std::span<const Triangle> triangles,
                         const WeldOptions& options, std::vector<std::uint32_t>& of);
 
+/// Moves vertices to those that weld_vertices welds them to by default: cracks close.
+BorderWeld close_cracks(TriMesh& mesh);
+
 }  // namespace viewcell

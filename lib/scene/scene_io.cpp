@@ -7,6 +7,7 @@
 #include "base/parallel.h"
 #include "formats/mesh_file.h"
 #include "mesh/used_vertices.h"
+#include "mesh/weld.h"
 #include "scene/scene.h"
 
 namespace viewcell {
@@ -211,6 +212,9 @@ FileRemarks load_mesh(const std::filesystem::path& scene_file, const std::string
   for (int axis = 0; axis < 3; ++axis)
     if (!(lo[axis] >= -kMaxCoordinate && hi[axis] <= kMaxCoordinate))
       throw InputError(file.string(), "", "coordinates leave +-1e7 after scaling");
+  const BorderWeld closed = close_cracks(mesh.mesh);
+  add_remark(&source.remarks, "vertices moved onto others next to them, so that cracks close",
+             closed.n_welded);
   SplitMesh split = split_corners(std::move(mesh.mesh));
   mesh.mesh = std::move(split.mesh);
   mesh.weld = std::move(split.weld);

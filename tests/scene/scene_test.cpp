@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <functional>
+#include <set>
 
+#include "base/random.h"
 #include "common/expect_input_error.h"
 #include "common/mutate.h"
 #include "scene/scene_fixture.h"
@@ -70,6 +72,37 @@ TEST(Scene, PlacedOnTheGround) {
     EXPECT_EQ(format_scene(scene, {})["meshes"][1]["place"], "ground");
     EXPECT_FALSE(format_scene(scene, {})["meshes"][0].contains("place"));
   }
+}
+
+// Every triangle on its own, corners of one place a little apart: a scan as some tools write it.
+TEST(Scene, CracksClose) {
+  SmallSceneFolder small;
+  const TriMesh cube = make_cube();
+  Random random(1);
+  TriMesh soup;
+  for (const Triangle& t : cube.triangles) {
+    const auto n = static_cast<std::uint32_t>(soup.positions.size());
+    soup.triangles.push_back({n, n + 1, n + 2});
+    for (const std::uint32_t v : t) {
+      const auto off = [&] { return static_cast<float>(random.uniform(-1e-6, 1e-6)); };
+      soup.positions.push_back(cube.positions[v] + glm::vec3(off(), off(), off()));
+    }
+  }
+  write_mesh(small.folder() / "soup.ply", MeshFormat::ply, soup);
+  Json& mesh = small.json()["meshes"][0];
+  mesh["file"] = "soup.ply";
+  mesh.erase("hash");
+  const Scene scene = read_scene(small.write());
+  std::set<std::uint32_t> places;
+  const SceneMesh& read = scene.meshes[0];
+  for (std::uint32_t v = 0; v < read.mesh.positions.size(); ++v) {
+    places.insert(read.weld.of(v));
+    EXPECT_EQ(read.mesh.positions[v], read.mesh.positions[read.weld.of(v)]);
+  }
+  EXPECT_EQ(places.size(), 8u);
+  ASSERT_EQ(scene.remarks.size(), 1u);
+  EXPECT_NE(scene.remarks[0].remarks.at(0).what.find("so that cracks close"), std::string::npos);
+  EXPECT_EQ(scene.remarks[0].remarks.at(0).count, 28u);
 }
 
 TEST(Scene, WithoutMeshesOnlyTheJsonIsRead) {
