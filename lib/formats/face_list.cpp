@@ -1,5 +1,9 @@
 #include "formats/face_list.h"
 
+#include <algorithm>
+#include <bit>
+#include <utility>
+
 #include "formats/format_number.h"
 #include "mesh/offset.h"
 #include "mesh/triangulate.h"
@@ -24,6 +28,97 @@ void remark_offset(const TriMesh& mesh, Remarks* remarks) {
         mesh.positions.size());
 }
 
+// ---- polygons at one place ----
+
+std::uint64_t hash_position(const glm::vec3& p) {
+  std::uint64_t h = 0;
+  for (int k = 0; k < 3; ++k) {
+    h = (h ^ std::bit_cast<std::uint32_t>(p[k] + 0.0f)) * 0x9e3779b97f4a7c15ull;
+    h ^= h >> 29;
+  }
+  return h;
+}
+
+std::span<const std::uint32_t> corners_of_face(const FaceList& faces, std::uint32_t f) {
+  return std::span(faces.vertices).subspan(faces.starts[f], faces.starts[f + 1] - faces.starts[f]);
+}
+
+// A polygon that has its corners where an earlier one has them, as the two sides of a sheet do.
+struct Copy {
+  std::uint32_t face, original;
+  std::size_t first;  // its corner where the original's first one is
+  bool is_back;       // it has the others the other way round
+
+  std::uint32_t corner(std::uint32_t of_original, std::size_t n) const {
+    return static_cast<std::uint32_t>((is_back ? first + n - of_original : first + of_original) %
+                                      n);
+  }
+};
+
+bool align(std::span<const std::uint32_t> original, std::span<const std::uint32_t> corners,
+           const std::vector<glm::vec3>& positions, Copy& copy) {
+  const std::size_t n = original.size();
+  if (corners.size() != n) return false;
+  for (copy.first = 0; copy.first < n; ++copy.first)
+    for (const bool is_back : {true, false}) {
+      copy.is_back = is_back;
+      std::uint32_t k = 0;
+      while (k < n && positions[original[k]] == positions[corners[copy.corner(k, n)]]) ++k;
+      if (k == n) return true;
+    }
+  return false;
+}
+
+// Ascending.
+std::vector<Copy> find_copies(const FaceList& faces, const std::vector<glm::vec3>& positions) {
+  constexpr std::size_t kBits = 16;  // a polygon: few are looked at twice
+  constexpr std::size_t kMostOriginals = 8;
+  std::vector<std::pair<std::uint64_t, std::uint32_t>> keys;  // the same from any corner
+  for (std::uint32_t f = 0; f < faces.size(); ++f) {
+    const auto corners = corners_of_face(faces, f);
+    if (corners.size() < 4) continue;
+    std::uint64_t key = 0;
+    for (const std::uint32_t v : corners) key += hash_position(positions[v]);
+    keys.emplace_back(key, f);
+  }
+  std::vector<Copy> out;
+  if (keys.size() < 2) return out;
+  const std::size_t mask = std::bit_ceil(kBits * keys.size()) - 1;
+  std::vector<bool> is_met(mask + 1, false), is_met_again(mask + 1, false);
+  for (const auto& [key, f] : keys) {
+    if (is_met[key & mask]) is_met_again[key & mask] = true;
+    is_met[key & mask] = true;
+  }
+  std::erase_if(keys, [&](const auto& key) { return !is_met_again[key.first & mask]; });
+  std::sort(keys.begin(), keys.end());
+  for (std::size_t first = 0, i = 1; i < keys.size(); ++i) {
+    if (keys[i].first != keys[first].first) first = i;
+    for (std::size_t k = first; k < std::min(i, first + kMostOriginals); ++k) {
+      Copy copy{keys[i].second, keys[k].second, 0, false};
+      if (!align(corners_of_face(faces, copy.original), corners_of_face(faces, copy.face),
+                 positions, copy))
+        continue;
+      out.push_back(copy);
+      break;
+    }
+  }
+  std::sort(out.begin(), out.end(), [](const Copy& a, const Copy& b) { return a.face < b.face; });
+  return out;
+}
+
+// As its original is cut, so that a sheet is one surface, not two that cross.
+PolygonCut cut_copy(const Copy& copy, std::span<const std::uint32_t> original,
+                    const std::vector<glm::vec3>& positions, std::vector<Triangle>& out) {
+  std::vector<glm::vec3> points;
+  for (const std::uint32_t v : original) points.push_back(positions[v]);
+  const PolygonCut how = triangulate_polygon(points, out);
+  for (Triangle& t : out) {
+    for (std::uint32_t& k : t) k = copy.corner(k, original.size());
+    if (copy.is_back) std::swap(t[1], t[2]);
+  }
+  return how;
+}
+
 }  // namespace
 
 void cut_faces(const FaceList& faces, TriMesh& mesh, TriangleSources* sources, Remarks* remarks) {
@@ -31,20 +126,27 @@ void cut_faces(const FaceList& faces, TriMesh& mesh, TriangleSources* sources, R
   std::vector<Triangle> cut;
   std::size_t n_short = 0, n_crossed = 0;
   mesh.triangles.reserve(faces.size());
-  for (std::size_t f = 0; f < faces.size(); ++f) {
+  const std::vector<Copy> copies = find_copies(faces, mesh.positions);
+  auto copy = copies.begin();
+  for (std::uint32_t f = 0; f < faces.size(); ++f) {
     const std::uint64_t first = faces.starts[f], n = faces.starts[f + 1] - first;
     n_short += n < 3;
     if (n < 3) continue;
     points.clear(), cut.clear();
     for (std::uint64_t c = first; c < first + n; ++c)
       points.push_back(mesh.positions[faces.vertices[c]]);
-    n_crossed += triangulate_polygon(points, cut) == PolygonCut::crossed;
+    const bool is_copy = copy != copies.end() && copy->face == f;
+    const PolygonCut how =
+        is_copy ? cut_copy(*copy, corners_of_face(faces, copy->original), mesh.positions, cut)
+                : triangulate_polygon(points, cut);
+    copy += is_copy;
+    n_crossed += how == PolygonCut::crossed;
     for (const Triangle& t : cut) {
       mesh.triangles.push_back({faces.vertices[first + t[0]], faces.vertices[first + t[1]],
                                 faces.vertices[first + t[2]]});
       if (sources == nullptr) continue;
       for (const std::uint32_t corner : t) sources->corners.push_back(first + corner);
-      sources->faces.push_back(static_cast<std::uint32_t>(f));
+      sources->faces.push_back(f);
     }
   }
   add_remark(remarks, "faces of fewer than three corners, left out", n_short);

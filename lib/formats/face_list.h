@@ -27,8 +27,9 @@ struct TriangleSources {
   std::vector<std::uint32_t> faces;    ///< one a triangle
 };
 
-/// Sets mesh.triangles to the faces, cut (mesh/triangulate.h). Those of fewer than three corners
-/// are left out. Vertices must be in range. sources: if wanted.
+/// Sets mesh.triangles to the faces, cut (mesh/triangulate.h); one whose corners stand where an
+/// earlier one's do, either way round, as that one was. Those of fewer than three corners are left
+/// out. Vertices must be in range. sources: if wanted.
 void cut_faces(const FaceList& faces, TriMesh& mesh, TriangleSources* sources, Remarks* remarks);
 
 /// The vertices of a mesh's triangles, three each.

@@ -129,20 +129,22 @@ Welded weld_positions(const TriMesh& mesh) {
   return out;
 }
 
-// One value for each pair of a vertex and a texture coordinate at it, by vertex, then coordinate.
-Layer make_texcoord_layer(const TriMesh& mesh, const Welded& welded) {
-  using Key = std::tuple<std::uint32_t, float, float>;
+// One value for each pair of a vertex and a value at a corner there, by vertex, then value.
+// value_of(triangle, k): of the input.
+template <typename ValueOf>
+Layer make_corner_layer(const Welded& welded, const ValueOf& value_of) {
+  using Key = std::tuple<std::uint32_t, float, float, float>;
   std::vector<Key> corners;
   for (std::size_t t = 0; t < welded.source_triangle.size(); ++t)
     for (std::size_t k = 0; k < 3; ++k) {
-      const glm::vec2 uv = mesh.texcoords[3 * welded.source_triangle[t] + k];
-      corners.emplace_back(welded.layer.triangles[t][k], uv.x, uv.y);
+      const glm::vec3 value = value_of(welded.source_triangle[t], k);
+      corners.emplace_back(welded.layer.triangles[t][k], value.x, value.y, value.z);
     }
   std::vector<Key> keys = corners;
   std::sort(keys.begin(), keys.end());
   keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
   Layer out;
-  for (const auto& [vertex, u, v] : keys) out.values.emplace_back(u, v, 0);
+  for (const auto& [vertex, x, y, z] : keys) out.values.emplace_back(x, y, z);
   for (std::size_t c = 0; c < corners.size(); c += 3) {
     const auto place = [&](std::size_t k) {
       return static_cast<std::uint32_t>(std::lower_bound(keys.begin(), keys.end(), corners[c + k]) -
@@ -175,6 +177,61 @@ Layer split_times(Layer layer, int n_times, Rule rule) {
   return layer;
 }
 
+// On the same surface those of the input, by corner where a vertex has several; on a smoother one
+// its own.
+void set_normals(const TriMesh& mesh, const Welded& welded, const SubdivideOptions& options,
+                 TriMesh& out) {
+  if (options.scheme != SubdivisionScheme::midpoint && options.n_times > 0) {
+    out.normals = make_vertex_normals(out);
+    return;
+  }
+  const auto value_of = [&](std::size_t t, std::size_t k) {
+    return mesh.normals.empty() ? mesh.corner_normals[3 * t + k]
+                                : mesh.normals[mesh.triangles[t][k]];
+  };
+  Layer layer = split_times(make_corner_layer(welded, value_of), options.n_times, Rule::linear);
+  for (glm::dvec3& n : layer.values)
+    if (const double length = glm::length(n); length > 0) n /= length;
+  if (layer.values.size() == out.positions.size()) {
+    out.normals.assign(layer.values.begin(), layer.values.end());
+    return;
+  }
+  for (const Triangle& t : layer.triangles)
+    for (const std::uint32_t v : t) out.corner_normals.emplace_back(layer.values[v]);
+}
+
+// Vertices that have several, where colours meet, are split; all else of `out` is by corner by now,
+// or follows.
+void set_colors(const TriMesh& mesh, const Welded& welded, const SubdivideOptions& options,
+                TriMesh& out) {
+  Layer layer = make_corner_layer(
+      welded, [&](std::size_t t, std::size_t k) { return mesh.colors[mesh.triangles[t][k]]; });
+  const bool is_split = layer.values.size() != welded.layer.values.size();
+  const Rule rule = position_rule(options);
+  layer = split_times(std::move(layer), options.n_times,
+                      is_split && rule == Rule::smooth ? Rule::fixed_creases : rule);
+  constexpr std::uint32_t kNone = 0xffffffffu;
+  std::vector<std::uint32_t> color_of(out.positions.size(), kNone);  // vertex -> its layer's
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> others;
+  for (std::size_t t = 0; t < out.triangles.size(); ++t)
+    for (std::size_t k = 0; k < 3; ++k) {
+      std::uint32_t& v = out.triangles[t][k];
+      const std::uint32_t color = layer.triangles[t][k];
+      if (color_of[v] == kNone) color_of[v] = color;
+      if (color_of[v] == color) continue;
+      const auto n = static_cast<std::uint32_t>(out.positions.size());
+      const auto [found, is_new] = others.try_emplace({v, color}, n);
+      if (is_new) {
+        out.positions.push_back(glm::vec3(out.positions[v]));
+        if (!out.normals.empty()) out.normals.push_back(glm::vec3(out.normals[v]));
+        color_of.push_back(color);
+      }
+      v = found->second;
+    }
+  for (const std::uint32_t color : color_of)
+    out.colors.emplace_back(color == kNone ? glm::dvec3(0) : layer.values[color]);
+}
+
 void check_count(std::size_t n_triangles, int n_times, const std::string& file) {
   VIEWCELL_CHECK(n_times >= 0, n_times);
   if (n_triangles == 0) throw InputError(file, "", "has no triangle of three different positions");
@@ -197,26 +254,23 @@ Subdivision subdivide(const TriMesh& mesh, const SubdivideOptions& options,
   out.n_welded = welded.n_welded;
   out.n_dropped = mesh.triangles.size() - welded.layer.triangles.size();
 
-  if (!mesh.colors.empty()) {
-    Layer colors = welded.layer;
-    for (std::size_t v = 0; v < colors.values.size(); ++v)
-      colors.values[v] = mesh.colors[welded.source_vertex[v]];
-    colors = split_times(std::move(colors), options.n_times, position_rule(options));
-    out.mesh.colors.assign(colors.values.begin(), colors.values.end());
-  }
-  if (!mesh.texcoords.empty()) {
-    const Layer uv =
-        split_times(make_texcoord_layer(mesh, welded), options.n_times, texcoord_rule(options));
-    for (const Triangle& t : uv.triangles)
-      for (const std::uint32_t v : t) out.mesh.texcoords.emplace_back(uv.values[v]);
-  }
   Layer surface = split_times(welded.layer, options.n_times, position_rule(options));
   out.mesh.positions.assign(surface.values.begin(), surface.values.end());
   out.mesh.triangles = std::move(surface.triangles);
   out.mesh.offset = mesh.offset;
   out.mesh.material_libraries = mesh.material_libraries;
+  if (!mesh.texcoords.empty()) {
+    const auto value_of = [&](std::size_t t, std::size_t k) {
+      return glm::vec3(mesh.texcoords[3 * t + k], 0);
+    };
+    const Layer uv =
+        split_times(make_corner_layer(welded, value_of), options.n_times, texcoord_rule(options));
+    for (const Triangle& t : uv.triangles)
+      for (const std::uint32_t v : t) out.mesh.texcoords.emplace_back(uv.values[v]);
+  }
   if (!mesh.normals.empty() || !mesh.corner_normals.empty())
-    out.mesh.normals = make_vertex_normals(out.mesh);
+    set_normals(mesh, welded, options, out.mesh);
+  if (!mesh.colors.empty()) set_colors(mesh, welded, options, out.mesh);
   if (!mesh.materials.empty()) {
     const std::size_t n_children = out.mesh.triangles.size() / welded.source_triangle.size();
     for (const std::size_t t : welded.source_triangle)

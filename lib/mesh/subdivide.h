@@ -39,8 +39,10 @@ inline constexpr std::size_t kMostSubdividedFaces = 100'000'000;
 /// Vertices at equal positions are one, those of no triangle are left out. The others keep their
 /// order; then come those on edges. Triangle t of those that stay becomes 4^n_times t and on. Edges
 /// of one triangle or of more than two are creases, on which positions follow a cubic curve; where
-/// other than two creases meet, a vertex stays. Colours follow the rule of positions; materials
-/// stay; normals are made anew where there were any. A chart ends where the texture coordinates on
+/// other than two creases meet, a vertex stays. Colours follow the rule of positions; where several
+/// meet at a vertex it is split, and borders between them stay. Materials stay. Normals stay where
+/// the surface does (midpoint), by corner where a vertex has several; else they are made anew
+/// where there were any. A chart ends where the texture coordinates on
 /// the two sides of an edge differ. n_times = 0 welds only.
 ///
 /// Throws InputError(file) when nothing stays, or more than kMostSubdividedFaces would come out.

@@ -378,6 +378,59 @@ TEST(Faces, ThatAreNotConvex) {
   }
 }
 
+// A sheet of quads and one of hexagons, told from each side: from any corner on, on vertices of
+// their own or not, three times over. Whatever is on a back is on its front, too.
+TEST(Faces, SheetsOfTwoSidesAreCutAlike) {
+  Random random(1);
+  for (const std::size_t n : {4u, 6u})
+    for (const bool has_own : {false, true}) {
+      SCOPED_TRACE(std::to_string(n) + (has_own ? ", own vertices" : ""));
+      std::string text;
+      std::vector<glm::vec3> corners;
+      for (int face = 0; face < 30; ++face)
+        for (std::size_t k = 0; k < n; ++k) {
+          const double angle = 2 * 3.14159265 * static_cast<double>(k) / static_cast<double>(n);
+          corners.emplace_back(3 * face + std::cos(angle), std::sin(angle), random.uniform(-1, 1));
+        }
+      const int n_sides = 3;
+      for (int side = 0; side < (has_own ? n_sides : 1); ++side)
+        for (const glm::vec3& p : corners)
+          text += "v " + std::to_string(p.x) + " " + std::to_string(p.y) + " " +
+                  std::to_string(p.z) + "\n";
+      for (int side = 0; side < n_sides; ++side)
+        for (std::size_t face = 0; face < 30; ++face) {
+          text += "f";
+          const std::size_t first = random.below(static_cast<std::uint32_t>(n));
+          for (std::size_t k = 0; k < n; ++k) {
+            const std::size_t at = (side == 1 ? first + n - k : first + k) % n;
+            text += " " + std::to_string(1 + face * n + at +
+                                         (has_own ? corners.size() * std::size_t(side) : 0));
+          }
+          text += "\n";
+        }
+      const TriMesh mesh = parse_obj(text, "m");
+      const std::size_t n_side = mesh.triangles.size() / n_sides;
+      ASSERT_EQ(n_side, 30 * (n - 2));
+      const auto at = [&](std::size_t t, std::size_t k) {
+        return mesh.triangles[t][k] % corners.size();
+      };
+      for (std::size_t t = 0; t < n_side; ++t) {
+        std::array<std::size_t, 3> sorted[3];
+        for (std::size_t side = 0; side < 3; ++side) {
+          const std::size_t other = t + side * n_side;
+          sorted[side] = {at(other, 0), at(other, 1), at(other, 2)};
+          const auto& c = sorted[side];
+          const glm::dvec3 normal = glm::cross(glm::dvec3(corners[c[1]] - corners[c[0]]),
+                                               glm::dvec3(corners[c[2]] - corners[c[0]]));
+          EXPECT_EQ(normal.z > 0, side != 1);
+          std::sort(sorted[side].begin(), sorted[side].end());
+        }
+        EXPECT_EQ(sorted[0], sorted[1]);
+        EXPECT_EQ(sorted[0], sorted[2]);
+      }
+    }
+}
+
 TEST(Faces, ThatCrossThemselvesAreSaid) {
   Remarks remarks;
   const TriMesh mesh =

@@ -280,6 +280,46 @@ TEST(Subdivide, MidpointsKeepTheSurfaceAndTheTexture) {
     EXPECT_EQ(out.positions[v], mesh.positions[v]);
 }
 
+// Two squares at a right angle, each in its own colour and with its own normal, however these are
+// kept: by corner, or on vertices of their own.
+TEST(Subdivide, HardEdgesAndColoursStay) {
+  TriMesh corner;
+  const glm::vec3 normals[2] = {{0, 0, 1}, {1, 0, 0}}, colors[2] = {{1, 0, 0}, {0, 0, 1}};
+  for (int side = 0; side < 2; ++side) {
+    const auto n = static_cast<std::uint32_t>(corner.positions.size());
+    for (const glm::vec2 at : {glm::vec2(0, 0), {1, 0}, {1, 1}, {0, 1}})
+      corner.positions.push_back(side == 0 ? glm::vec3(at.x - 1, at.y, 0)
+                                           : glm::vec3(0, at.y, -at.x));
+    corner.normals.insert(corner.normals.end(), 4, normals[side]);
+    corner.colors.insert(corner.colors.end(), 4, colors[side]);
+    corner.triangles.insert(corner.triangles.end(), {{n, n + 1, n + 2}, {n, n + 2, n + 3}});
+  }
+  TriMesh by_corner = corner;
+  for (const Triangle& t : corner.triangles)
+    for (const std::uint32_t v : t) by_corner.corner_normals.push_back(corner.normals[v]);
+  by_corner.normals.clear();
+  for (const TriMesh& input : {corner, by_corner})
+    for (const int n_times : {0, 1, 3}) {
+      SCOPED_TRACE(n_times);
+      const TriMesh out = subdivide(input, {n_times, SubdivisionScheme::midpoint}).mesh;
+      ASSERT_EQ(out.triangles.size(), 4u << (2 * n_times));
+      for (std::size_t t = 0; t < out.triangles.size(); ++t) {
+        const std::size_t side = 2 * t / out.triangles.size();
+        for (std::size_t k = 0; k < 3; ++k) {
+          EXPECT_EQ(out.corner_normals.at(3 * t + k), normals[side]);
+          EXPECT_EQ(out.colors.at(out.triangles[t][k]), colors[side]);
+          EXPECT_EQ(out.positions[out.triangles[t][k]][side == 0 ? 2 : 0], 0);
+        }
+      }
+      const std::size_t n = (1u << n_times) + 1;
+      EXPECT_EQ(out.positions.size(), 2 * n * n);  // split where they meet
+    }
+  const TriMesh smooth = subdivide(corner, {2, SubdivisionScheme::loop}).mesh;
+  for (std::size_t t = 0; t < smooth.triangles.size(); ++t)
+    for (const std::uint32_t v : smooth.triangles[t])
+      EXPECT_EQ(smooth.colors[v], colors[2 * t / smooth.triangles.size()]);
+}
+
 TEST(Subdivide, WeldsDropsAndKeepsMaterials) {
   TriMesh mesh;
   mesh.positions = {{9, 9, 9}, {0, 0, 0}, {1, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}};
