@@ -218,6 +218,7 @@ class ObjParser {
     mesh_.texcoords.reserve(sources_.corners.size());
     for (const std::uint64_t corner : sources_.corners) {
       const std::uint32_t id = corner_texcoords_[corner];
+      n_bare_corners_ += id == kNone;
       mesh_.texcoords.push_back(id == kNone ? glm::vec2(0) : texcoords_[id]);
     }
   }
@@ -246,6 +247,8 @@ class ObjParser {
     add_remark(remarks_, "normals that are no three finite numbers, passed over", n_bad_normals_);
     add_remark(remarks_, "texture coordinates that are no finite numbers, taken as 0",
                n_bad_texcoords_);
+    add_remark(remarks_, "corners without texture coordinates beside others, which get (0, 0)",
+               n_bare_corners_);
     add_remark(remarks_, "corners that name texture coordinate or normal 0, taken as none",
                n_zeros_);
     add_remark(remarks_, "lines and points, passed over", n_lines_and_points_);
@@ -272,7 +275,8 @@ class ObjParser {
   std::vector<std::int32_t> materials_;  // of faces
   std::int32_t material_ = MaterialIds::kNone;
   float most_color_ = 0;
-  std::size_t n_bad_normals_ = 0, n_bad_texcoords_ = 0, n_zeros_ = 0, n_lines_and_points_ = 0;
+  std::size_t n_bad_normals_ = 0, n_bad_texcoords_ = 0, n_bare_corners_ = 0, n_zeros_ = 0,
+              n_lines_and_points_ = 0;
   std::size_t n_libraries_elsewhere_ = 0, n_groups_ = 0;
   std::map<std::string, std::size_t> unknown_;  // keywords
   std::string first_group_;

@@ -44,18 +44,34 @@ bool is_float(const PlyDocument& ply, const char* property) {
   return ply.column("vertex", property).type() == PlyType::kFloat;
 }
 
-std::vector<glm::dvec3> read_places(const PlyDocument& ply) {
+// A vertex that no face uses may be nowhere, as in scans that are a grid with holes: it goes where
+// the first one is.
+std::vector<glm::dvec3> read_places(const PlyDocument& ply, const FaceList& faces,
+                                    Remarks* remarks) {
   std::vector<glm::dvec3> out(ply.element("vertex").count);
+  std::vector<bool> is_used, is_nowhere(out.size(), false);
+  const auto check = [&](std::size_t v, const char* name) {
+    if (is_used.empty()) {
+      is_used.assign(out.size(), faces.vertices.empty());
+      for (const std::uint32_t used : faces.vertices) is_used[used] = true;
+    }
+    if (is_used[v])
+      throw InputError(ply.file, "vertex " + std::to_string(v),
+                       std::string("property '") + name + "' is not a finite number");
+    is_nowhere[v] = true;
+  };
   for (int k = 0; k < 3; ++k) {
     const char* names[] = {"x", "y", "z"};
     const std::vector<double> values = ply.doubles("vertex", names[k]);
     for (std::size_t v = 0; v < out.size(); ++v) {
-      if (!(std::abs(values[v]) <= std::numeric_limits<float>::max()))
-        throw InputError(ply.file, "vertex " + std::to_string(v),
-                         std::string("property '") + names[k] + "' is not a finite number");
+      if (!(std::abs(values[v]) <= std::numeric_limits<float>::max())) check(v, names[k]);
       out[v][k] = values[v];
     }
   }
+  std::size_t n = 0;
+  for (std::size_t v = 0; v < out.size(); ++v)
+    if (is_nowhere[v]) out[v] = out[faces.vertices[0]], ++n;
+  add_remark(remarks, "vertices that no face uses, without a position", n);
   return out;
 }
 
@@ -76,11 +92,14 @@ std::optional<glm::dvec3> stated_offset(const PlyDocument& ply) {
 void read_positions(const PlyDocument& ply, const FaceList& faces, TriMesh& mesh,
                     Remarks* remarks) {
   if (is_float(ply, "x") && is_float(ply, "y") && is_float(ply, "z")) {
-    mesh.positions = ply.vec3s("vertex", "x", "y", "z");
-    choose_offset_of(faces.vertices, mesh, remarks);
-  } else {
-    place_vertices(read_places(ply), faces.vertices, mesh, remarks, stated_offset(ply));
+    try {
+      mesh.positions = ply.vec3s("vertex", "x", "y", "z");
+      return choose_offset_of(faces.vertices, mesh, remarks);
+    } catch (const InputError&) {  // some are nowhere
+    }
   }
+  place_vertices(read_places(ply, faces, remarks), faces.vertices, mesh, remarks,
+                 stated_offset(ply));
 }
 
 // Those that are no numbers are none (normalize_normals).

@@ -58,11 +58,20 @@ bool is_count_left_open(std::string_view bytes) {
 }
 
 TriMesh parse_binary_stl(std::string_view bytes, const std::string& file, Remarks* remarks) {
-  const std::size_t n = (bytes.size() - kHeaderBytes) / kFacetBytes;
-  if (n * kFacetBytes != bytes.size() - kHeaderBytes)
-    throw InputError(file, "facet " + std::to_string(n), "the file ends inside this facet");
-  if (n != stated_facets(bytes))
+  const std::size_t n_bytes = bytes.size() - kHeaderBytes, n_fit = n_bytes / kFacetBytes;
+  const std::size_t n = is_count_left_open(bytes) ? n_fit : stated_facets(bytes);
+  if (n > n_fit)
+    throw InputError(file, "facet " + std::to_string(n_fit),
+                     "the file ends inside or before this facet, of " + std::to_string(n));
+  if (is_count_left_open(bytes)) {
+    if (n * kFacetBytes != n_bytes)
+      throw InputError(file, "facet " + std::to_string(n), "the file ends inside this facet");
     add_remark(remarks, "facets, counted by the file's size: its header does not say how many", n);
+  } else if (n < n_fit && n_fit * kFacetBytes == n_bytes) {
+    throw InputError(file, "header",
+                     std::to_string(n) + " facets, and the file has " + std::to_string(n_fit));
+  }
+  add_remark(remarks, "bytes after the last facet, passed over", n_bytes - n * kFacetBytes);
   TriMesh mesh;
   ByteCursor cursor(bytes, file);
   cursor.take(kHeaderBytes);
@@ -141,6 +150,12 @@ bool is_binary_stl(std::string_view bytes) {
          bytes.size() == kHeaderBytes + kFacetBytes * std::uint64_t{stated_facets(bytes)};
 }
 
+// Text has no byte of 0; what programs leave of the header's 80 bytes, and numbers, have many.
+bool has_zeros(std::string_view bytes) {
+  return bytes.size() >= kHeaderBytes &&
+         bytes.substr(0, kHeaderBytes + kFacetBytes).find('\0') != std::string_view::npos;
+}
+
 bool may_be_stl(std::string_view bytes) {
   constexpr std::string_view kSolid = "solid";
   return is_word(bytes.substr(0, kSolid.size()), kSolid) ||
@@ -148,7 +163,7 @@ bool may_be_stl(std::string_view bytes) {
 }
 
 TriMesh parse_stl(std::string_view bytes, const std::filesystem::path& file, Remarks* remarks) {
-  const bool is_binary = is_binary_stl(bytes) || is_count_left_open(bytes);
+  const bool is_binary = is_binary_stl(bytes) || is_count_left_open(bytes) || has_zeros(bytes);
   TriMesh mesh = is_binary ? parse_binary_stl(bytes, file.string(), remarks)
                            : parse_text_stl(bytes, file.string(), remarks);
   weld_corners(mesh);

@@ -212,6 +212,15 @@ void find_pieces(const std::vector<Triangle>& triangles, const VanishOptions& va
     start.pieces = VanishingPieces(start.positions, triangles, pieces, vanish);
 }
 
+// Of coordinates near the end of floats.
+void check_places(const ProgressiveRecord& record, const std::string& name) {
+  for (const auto* places : {&record.attributes.positions, &record.parent_positions})
+    for (const glm::vec3& p : *places)
+      if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
+        throw InputError(name, "",
+                         "coordinates are so large that collapses leave what floats hold");
+}
+
 WeldOptions weld_options(const TriMesh& mesh, const BuildOptions& options) {
   if (!options.weld_tolerance) return {.tolerance = default_weld_tolerance(mesh)};
   return {*options.weld_tolerance, std::numeric_limits<double>::infinity()};
@@ -299,6 +308,7 @@ BuildResult build_progressive_mesh(const TriMesh& mesh, const BuildOptions& opti
       static_cast<std::size_t>(std::count(vanish.locked.begin(), vanish.locked.end(), true));
   result.counts = run_metric(work, wedges, sheets, recorder, start, units, options, progress);
   result.record = recorder.finish();
+  check_places(result.record, options.name);
   result.n_welded = wedges.n_welded;
   result.n_dropped = wedges.n_dropped;
   result.weld_tolerance = weld.tolerance;

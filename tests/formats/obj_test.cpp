@@ -92,7 +92,8 @@ TEST(Obj, CountsWhatItPassesOver) {
   EXPECT_EQ(count_of(remarks, "lines and points"), 2u);
   EXPECT_EQ(count_of(remarks, "lines 'curv'"), 2u);
   EXPECT_EQ(count_of(remarks, "material libraries outside"), 2u);
-  EXPECT_EQ(remarks.size(), 7u);
+  EXPECT_EQ(count_of(remarks, "corners without texture coordinates beside others"), 5u);
+  EXPECT_EQ(remarks.size(), 8u);
   Remarks none;
   parse_obj("mtllib a.mtl\no x\ng y\ns 1\n" + kTriangle + "f 1 2 3\n", "m", &none);
   EXPECT_TRUE(none.empty()) << none[0].what;

@@ -378,6 +378,43 @@ TEST(Faces, ThatAreNotConvex) {
   }
 }
 
+// As 3D scanners write grids with holes.
+TEST(PlyVariants, VerticesOfNoFaceMayBeNowhere) {
+  const std::string head = "ply\nformat ascii 1.0\nelement vertex 5\n",
+                    tail = "element face 1\nproperty list uchar int vertex_indices\nend_header\n";
+  for (const char* type : {"float", "double"}) {
+    std::string properties;
+    for (const char* axis : {"x", "y", "z"})
+      properties += std::string("property ") + type + " " + axis + "\n";
+    const auto file = [&](const char* face) {
+      return head + properties + tail + "nan nan nan\n1 0 0\n2 0 0\n1 1 0\n0 0 inf\n" + face;
+    };
+    const auto [mesh, remarks] = read_bytes("m.ply", file("3 1 2 3\n"));
+    EXPECT_EQ(count_of(remarks, "vertices that no face uses, without a position"), 2u);
+    EXPECT_EQ(mesh.positions[0], glm::vec3(1, 0, 0));
+    EXPECT_EQ(mesh.positions[3], glm::vec3(1, 1, 0));
+    EXPECT_INPUT_ERROR(read_bytes("m.ply", file("3 0 2 3\n")),
+                       "vertex 0: property 'x' is not a finite");
+  }
+}
+
+// Exporters leave blanks or a signature behind the facets.
+TEST(StlVariants, BytesAfterTheLastFacetAreCounted) {
+  for (const char* begin : {"solid", "made "}) {
+    std::string bytes = begin + std::string(75, '\0') + std::string("\2\0\0\0", 4);
+    for (const float x : {0.0f, 1.0f}) {
+      const float facet[12] = {0, 0, 1, x, 0, 0, x + 1, 0, 0, x, 1, 0};
+      bytes.append(reinterpret_cast<const char*>(facet), sizeof facet).append(2, '\0');
+    }
+    EXPECT_EQ(read_bytes("m.stl", bytes).mesh.triangles.size(), 2u);
+    const auto [mesh, remarks] = read_bytes("m.stl", bytes + "\r\n");
+    EXPECT_EQ(mesh.triangles.size(), 2u);
+    EXPECT_EQ(count_of(remarks, "bytes after the last facet, passed over"), 2u);
+    EXPECT_INPUT_ERROR(read_bytes("m.stl", bytes.substr(0, bytes.size() - 60)),
+                       "facet 0: the file ends inside or before this facet, of 2");
+  }
+}
+
 // A sheet of quads and one of hexagons, told from each side: from any corner on, on vertices of
 // their own or not, three times over. Whatever is on a back is on its front, too.
 TEST(Faces, SheetsOfTwoSidesAreCutAlike) {
