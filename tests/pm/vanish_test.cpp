@@ -275,7 +275,9 @@ TEST(Vanish, HostileRecordsAreRefused) {
             "names a vertex out of range");
   const std::string joins = "brings a piece that joins what is there, or a face without an area";
   EXPECT_EQ(check([](auto& r, VertexSplit&) { r.faces[8] = {6, 7, 0}; }), joins);
-  EXPECT_EQ(check([](auto& r, VertexSplit&) { r.faces[8] = {6, 7, 7}; }),
+  EXPECT_EQ(check([](auto& r, VertexSplit&) {
+              r.faces[8] = {6, 7, 7};
+            }),
             "a face has two corners at one vertex");
   EXPECT_EQ(check([](auto& r, VertexSplit& s) {
               s.n_pairs = 1;
