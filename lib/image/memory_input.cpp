@@ -74,6 +74,9 @@ void check_spec(const MemoryInput& picture, std::size_t n_file_bytes, const std:
     throw InputError(
         file, "header",
         std::to_string(spec.nchannels) + " channels, more than " + std::to_string(kMaxChannels));
+  // OpenImageIO leaves rows of such as the memory was.
+  if (picture.format == ImageFormat::tiff && spec.format == OIIO::TypeDesc::DOUBLE)
+    throw InputError(file, "header", "has 64 bits a sample, which is not read: convert it to 32");
   if (picture.format == ImageFormat::openexr || picture.format == ImageFormat::tiff)
     check_inflation(spec, n_file_bytes, file, limits);
 }

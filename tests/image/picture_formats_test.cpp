@@ -314,6 +314,36 @@ TEST(PictureBombs, TiffAndExr) {
   }
 }
 
+TEST(PictureFormats, TiffOfAnyDepth) {
+  const TemporaryFolder folder;
+  const int width = 37, height = 21;
+  std::vector<float> samples(static_cast<std::size_t>(3 * width * height));
+  Random random(1);
+  for (float& sample : samples) sample = static_cast<float>(random.below(256)) / 255;
+  const auto decoded = [&](const OIIO::TypeDesc& type, const char* compression, int tile) {
+    const auto file = (folder / "a.tif").string();
+    OIIO::ImageSpec spec(width, height, 3, type);
+    spec.attribute("compression", compression);
+    spec.tile_width = spec.tile_height = tile;
+    const auto output = OIIO::ImageOutput::create(file);
+    EXPECT_TRUE(output->open(file, spec));
+    EXPECT_TRUE(output->write_image(OIIO::TypeFloat, samples.data()));
+    output->close();
+    return decode(read_file(file)).pixels;
+  };
+  for (const int tile : {0, 16})
+    for (const char* compression : {"none", "zip", "lzw"}) {
+      SCOPED_TRACE(compression);
+      const auto linear = decoded(OIIO::TypeFloat, "none", 0);
+      EXPECT_INPUT_ERROR(decoded(OIIO::TypeDesc::DOUBLE, compression, tile),
+                         "64 bits a sample, which is not read");
+      EXPECT_EQ(decoded(OIIO::TypeFloat, compression, tile), linear);
+      const auto encoded = decoded(OIIO::TypeUInt8, "none", 0);
+      EXPECT_EQ(decoded(OIIO::TypeUInt16, compression, tile), encoded);
+      EXPECT_EQ(decoded(OIIO::TypeUInt8, compression, tile), encoded);
+    }
+}
+
 // How many rows a strip has says nothing of the picture; of what cannot be decoded nothing is
 // shown.
 TEST(PictureFormats, TiffStripsAndTiles) {
