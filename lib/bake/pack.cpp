@@ -167,6 +167,8 @@ std::uint8_t srgb8_of_half(float linear) {
   return table[half_from_float(std::clamp(linear, 0.0f, 1.0f))];
 }
 
+constexpr double kNowhere = -255e3;  // a thousand times the range of codes away
+
 }  // namespace
 
 void append_tile(const CaptureTile& tile, CentreTextures& textures) {
@@ -184,6 +186,9 @@ void append_tile(const CaptureTile& tile, CentreTextures& textures) {
   out.focal_px = tile.view.focal_px;
   out.code_scale = *hi > *lo ? 255.0 / (static_cast<double>(*hi) - *lo) : 0.0;
   out.code_bias = -out.code_scale * *lo;
+  // Of a view that shows nothing of the object, as from behind a wall of one side, no texel is at
+  // any depth; with neither scale nor bias all would be at every depth, and black.
+  if (!(*hi > 0)) out.code_bias = kNowhere;
   out.first_texel = textures.texels.size();
   textures.tiles.push_back(out);
   for (std::size_t i = 0; i < depths.size(); ++i) {

@@ -348,6 +348,21 @@ TEST(Bundle, OneDepthAloneIsEncodedWithoutDividing) {
   EXPECT_TRUE(std::isfinite(textures.tiles[0].code_bias));
 }
 
+// As from behind a wall of one side: no code is near what any depth would have.
+TEST(Bundle, ATileThatShowsNothingIsAtNoDepth) {
+  CaptureTile tile;
+  tile.crop = {0, 0, 2, 2};
+  tile.color = ImageRgbaFloat(2, 2);
+  tile.inverse_depth = Image<float>(2, 2, 0.0f);
+  CentreTextures textures;
+  append_tile(tile, textures);
+  for (const double inverse_depth : {0.0, 1e-6, 0.1, 1e3}) {
+    const BundleTile& out = textures.tiles[0];
+    for (const Rgba8& texel : textures.texels)
+      EXPECT_GT(std::abs(out.code_scale * inverse_depth + out.code_bias - texel[3]), 1e4);
+  }
+}
+
 TEST(Bundle, OpensOnlyWhatIsWhole) {
   for (const char* part : {"scene.json", "cells.json", "torus.ply"}) {
     const BundleCopy copy;
