@@ -103,6 +103,17 @@ const char* name_of_unread(std::string_view all) {
                    "picture");
 }
 
+// Bits of a BMP's pixels that are other than blue, green and red upwards, 8, 5 or 5 and 6 each:
+// OpenImageIO passes its masks over.
+bool has_other_masks(const HeaderBytes& bytes) {
+  const std::uint32_t compression = bytes.le32(30), bits = bytes.le16(28);
+  if (bytes.le32(14) < 40 || (compression != 3 && compression != 6)) return false;
+  const std::array<std::uint32_t, 3> masks{bytes.le32(54), bytes.le32(58), bytes.le32(62)};
+  if (bits == 32) return masks != std::array<std::uint32_t, 3>{0xff0000, 0xff00, 0xff};
+  return masks != std::array<std::uint32_t, 3>{0xf800, 0x7e0, 0x1f} &&
+         masks != std::array<std::uint32_t, 3>{0x7c00, 0x3e0, 0x1f};
+}
+
 std::string size_in_words(long long width_px, long long height_px) {
   return std::to_string(width_px) + " x " + std::to_string(height_px) + " pixels";
 }
@@ -159,6 +170,9 @@ ImageFormat check_image_header(std::string_view bytes, const std::string& file,
   const std::optional<PictureFacts> facts = row.facts(bytes);
   if (!facts) throw InputError(file, "header", std::string("malformed or cut ") + row.name);
   check_facts(*facts, file, limits);
+  if (*format == ImageFormat::bmp && has_other_masks(HeaderBytes(bytes)))
+    throw InputError(file, "header",
+                     "a BMP with bit masks of its own, which are not read: convert it to PNG");
   add_remark(remarks, kFurtherPictures, facts->n_pictures - 1);
   return *format;
 }

@@ -314,6 +314,16 @@ TEST(PictureBombs, TiffAndExr) {
   }
 }
 
+TEST(PictureFormats, BmpOfOtherMasksIsRefused) {
+  const std::string pixels(3 * 2 * 4, '\x40');
+  const auto with = [&](std::uint32_t r, std::uint32_t g, std::uint32_t b) {
+    return bmp(32, 2, pixels, le32(r) + le32(g) + le32(b), 3, 3);
+  };
+  EXPECT_EQ(decode(with(0xff0000, 0xff00, 0xff)).width_px, 3);
+  EXPECT_INPUT_ERROR(decode(with(0xff, 0xff00, 0xff0000)), "bit masks of its own");
+  EXPECT_INPUT_ERROR(decode(with(0xff000000, 0xff0000, 0xff00)), "bit masks of its own");
+}
+
 TEST(PictureFormats, TiffOfAnyDepth) {
   const TemporaryFolder folder;
   const int width = 37, height = 21;
