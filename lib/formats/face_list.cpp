@@ -30,15 +30,6 @@ void remark_offset(const TriMesh& mesh, Remarks* remarks) {
 
 // ---- polygons at one place ----
 
-std::uint64_t hash_position(const glm::vec3& p) {
-  std::uint64_t h = 0;
-  for (int k = 0; k < 3; ++k) {
-    h = (h ^ std::bit_cast<std::uint32_t>(p[k] + 0.0f)) * 0x9e3779b97f4a7c15ull;
-    h ^= h >> 29;
-  }
-  return h;
-}
-
 std::span<const std::uint32_t> corners_of_face(const FaceList& faces, std::uint32_t f) {
   return std::span(faces.vertices).subspan(faces.starts[f], faces.starts[f + 1] - faces.starts[f]);
 }
@@ -72,11 +63,11 @@ bool align(std::span<const std::uint32_t> original, std::span<const std::uint32_
 // Ascending.
 std::vector<Copy> find_copies(const FaceList& faces, const std::vector<glm::vec3>& positions) {
   constexpr std::size_t kBits = 16;  // a polygon: few are looked at twice
-  constexpr std::size_t kMostOriginals = 8;
-  std::vector<std::pair<std::uint64_t, std::uint32_t>> keys;  // the same from any corner
+  constexpr std::size_t kMostOriginals = 8, kMostCorners = 1024;  // what a hostile file may cost
+  std::vector<std::pair<std::uint64_t, std::uint32_t>> keys;      // the same from any corner
   for (std::uint32_t f = 0; f < faces.size(); ++f) {
     const auto corners = corners_of_face(faces, f);
-    if (corners.size() < 4) continue;
+    if (corners.size() < 4 || corners.size() > kMostCorners) continue;
     std::uint64_t key = 0;
     for (const std::uint32_t v : corners) key += hash_position(positions[v]);
     keys.emplace_back(key, f);
@@ -120,6 +111,15 @@ PolygonCut cut_copy(const Copy& copy, std::span<const std::uint32_t> original,
 }
 
 }  // namespace
+
+std::uint64_t hash_position(const glm::vec3& p) {
+  std::uint64_t h = 0;
+  for (int k = 0; k < 3; ++k) {
+    h = (h ^ std::bit_cast<std::uint32_t>(p[k] + 0.0f)) * 0x9e3779b97f4a7c15ull;
+    h ^= h >> 29;
+  }
+  return h;
+}
 
 void cut_faces(const FaceList& faces, TriMesh& mesh, TriangleSources* sources, Remarks* remarks) {
   std::vector<glm::vec3> points;

@@ -21,6 +21,9 @@ struct FaceList {
   void end_face() { starts.push_back(vertices.size()); }
 };
 
+/// The same for equal positions.
+std::uint64_t hash_position(const glm::vec3& p);
+
 /// Where the triangles of a FaceList come from.
 struct TriangleSources {
   std::vector<std::uint64_t> corners;  ///< three a triangle: of the list

@@ -2,7 +2,6 @@
 // Differs: not by ADMesh (0.98.4 tried), which reads a text that is cut in its third facet
 // as two facets, refuses blank lines and several solids, and opens files by name only.
 #include <algorithm>
-#include <bit>
 #include <cctype>
 #include <unordered_map>
 
@@ -18,12 +17,7 @@ constexpr std::size_t kHeaderBytes = 84;  // 80 of comment, and the count
 constexpr std::size_t kFacetBytes = 50;   // normal, three positions, two bytes of attributes
 
 struct PositionHash {
-  std::size_t operator()(const glm::vec3& p) const {
-    std::uint64_t h = 0;
-    for (int k = 0; k < 3; ++k)
-      h = (h ^ std::bit_cast<std::uint32_t>(p[k])) * 0x9e3779b97f4a7c15u, h ^= h >> 29;
-    return h;
-  }
+  std::size_t operator()(const glm::vec3& p) const { return hash_position(p); }
 };
 
 // Vertices at one position become one, in the order of their first appearance. Three vertices a
@@ -34,7 +28,7 @@ void weld_corners(TriMesh& mesh) {
   mesh.positions.clear();
   mesh.triangles.resize(corners.size() / 3);
   for (std::size_t c = 0; c < corners.size(); ++c) {
-    const glm::vec3 p = corners[c] + 0.0f;  // -0 becomes 0: they are equal, and must hash alike
+    const glm::vec3 p = corners[c] + 0.0f;  // no -0
     const auto [found, is_new] =
         ids.try_emplace(p, static_cast<std::uint32_t>(mesh.positions.size()));
     if (is_new) mesh.positions.push_back(p);
