@@ -1,5 +1,6 @@
 #include "formats/gltf_materials.h"
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -92,14 +93,24 @@ std::optional<GltfTextureUse> leading_texture(const JsonCursor& material) {
   return std::nullopt;
 }
 
-bool is_repeated(const JsonCursor& root, std::int64_t texture) {
-  constexpr std::int64_t kRepeat = 10497;
+GlbSampler sampler_of(const JsonCursor& root, std::int64_t texture) {
+  GlbSampler out;
   const std::int64_t id = optional_gltf_index(texture_at(root, texture), "sampler");
-  if (id < 0) return true;
+  if (id < 0) return out;
   const JsonCursor sampler = root.at("samplers").at(static_cast<std::size_t>(id));
-  for (const char* key : {"wrapS", "wrapT"})
-    if (sampler.has(key) && gltf_index(sampler.at(key)) != kRepeat) return false;
-  return true;
+  const auto read = [&](const char* key, std::initializer_list<int> known, int other, int& to) {
+    if (!sampler.has(key)) return;
+    const std::int64_t number = gltf_index(sampler.at(key));
+    const bool is_known = std::find(known.begin(), known.end(), number) != known.end();
+    to = is_known ? static_cast<int>(number) : other;
+  };
+  const auto wraps = {GlbSampler::kRepeat, GlbSampler::kClampToEdge, GlbSampler::kMirrored};
+  read("wrapS", wraps, GlbSampler::kClampToEdge, out.wrap_s);
+  read("wrapT", wraps, GlbSampler::kClampToEdge, out.wrap_t);
+  read("magFilter", {GlbSampler::kNearest, GlbSampler::kLinear}, out.mag_filter, out.mag_filter);
+  read("minFilter", {GlbSampler::kNearest, GlbSampler::kLinear, 9984, 9985, 9986, 9987},
+       out.min_filter, out.min_filter);
+  return out;
 }
 
 bool has_readable_image(const JsonCursor& root, std::int64_t id) {

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "formats/glb_material.h"
 #include "formats/gltf_buffers.h"
 
 namespace viewcell {
@@ -47,8 +48,9 @@ std::optional<GltfTextureUse> texture_of(const JsonCursor& material, GltfSlot sl
 /// that has one.
 std::optional<GltfTextureUse> leading_texture(const JsonCursor& material);
 
-/// Whether the texture's sampler repeats the picture in both directions, as we draw it.
-bool is_repeated(const JsonCursor& root, std::int64_t texture);
+/// That of a texture; linear, and repeating as we draw it, where it has none. Of numbers that glTF
+/// does not know (GL_CLAMP of old exporters) sides are clamped and filters are linear.
+GlbSampler sampler_of(const JsonCursor& root, std::int64_t texture);
 
 /// The number of the picture behind a texture. Throws InputError, with the extension's name, for
 /// one that is there in a format only that is not read.

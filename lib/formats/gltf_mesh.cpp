@@ -220,9 +220,9 @@ GltfVertices read_gltf_vertices(const GltfAttributes& attributes, const JsonCurs
 // Pictures are drawn as if they repeated; what shows another thing then is said.
 void remark_wrapping(const GltfFile& gltf, const Look& look, const GltfVertices& vertices,
                      const std::vector<Triangle>& triangles, Remarks* remarks) {
-  if (!look.texture || vertices.texcoords.empty() ||
-      is_repeated(gltf.root(), look.texture->texture))
-    return;
+  if (!look.texture || vertices.texcoords.empty()) return;
+  const GlbSampler sampler = sampler_of(gltf.root(), look.texture->texture);
+  if (sampler.wrap_s == GlbSampler::kRepeat && sampler.wrap_t == GlbSampler::kRepeat) return;
   constexpr float kSlack = 1e-4f;
   const auto is_beyond = [&](std::uint32_t v) {
     const glm::vec2& uv = vertices.texcoords[v];

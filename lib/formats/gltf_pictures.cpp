@@ -27,8 +27,8 @@ class GltfPictureReader {
     m.look = read_look(material);
     m.name = name;
     if (material.has("name")) m.look.name = material.at("name").string();
-    m.color = picture_of(material, GltfSlot::base_color);
-    m.normal = picture_of(material, GltfSlot::normal);
+    m.color = picture_of(material, GltfSlot::base_color, m.look.color_sampler);
+    m.normal = picture_of(material, GltfSlot::normal, m.look.normal_sampler);
     for (const GltfSlot slot :
          {GltfSlot::emissive, GltfSlot::occlusion, GltfSlot::metallic_roughness})
       if (texture_of(material, slot))
@@ -69,7 +69,7 @@ class GltfPictureReader {
     return out;
   }
 
-  int picture_of(const JsonCursor& material, GltfSlot slot) {
+  int picture_of(const JsonCursor& material, GltfSlot slot, GlbSampler& sampler) {
     const std::optional<GltfTextureUse> use = texture_of(material, slot);
     if (!use) return -1;
     if (use->texcoords != leading_texture(material)->texcoords) {
@@ -81,6 +81,7 @@ class GltfPictureReader {
       add_remark(&out_.remarks, "normal maps that are no PNG, JPEG or WebP, left out");
       return -1;
     }
+    sampler = sampler_of(gltf_.root(), use->texture);
     const std::int64_t image = image_of_texture(gltf_.root(), use->texture);
     const auto [found, is_new] = ids_.try_emplace(image, static_cast<int>(out_.pictures.size()));
     if (is_new)

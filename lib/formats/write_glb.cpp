@@ -26,7 +26,6 @@ static_assert(std::endian::native == std::endian::little, "GLB is written as it 
 
 constexpr int kGltfFloat = 5126, kGltfUnsignedShort = 5123, kGltfUnsignedInt = 5125;
 constexpr int kVertexData = 34962, kIndexData = 34963;
-constexpr int kLinear = 9729, kLinearMipmapLinear = 9987;
 
 // --- vertices: each a vertex of the mesh with one texture coordinate ---
 
@@ -84,7 +83,9 @@ DrawnVertices split_vertices(const TriMesh& mesh, const std::vector<glm::vec4>& 
 struct Content {
   std::string bytes;
   Json views = Json::array(), accessors = Json::array();
-  std::map<std::string, std::size_t> textures;  // by their pictures' bytes
+  std::map<std::string, std::size_t> images;  // by their bytes
+  std::map<GlbSampler, std::size_t> samplers;
+  std::map<std::pair<std::size_t, std::size_t>, std::size_t> textures;  // of image and sampler
 };
 
 // target 0: none. Gives the view's number.
@@ -214,21 +215,36 @@ const char* mime_type(const std::string& picture, const std::string& file) {
   throw InputError(file, "texture", "is neither PNG nor JPEG, which glTF holds");
 }
 
-// Adds a picture and its texture, once; gives what a material says of it.
-Json add_texture(Content& content, Json& root, const std::string& picture,
-                 const std::string& file) {
-  const auto [found, is_new] = content.textures.try_emplace(picture, content.textures.size());
-  if (!is_new) return {{"index", found->second}};
-  const char* type = mime_type(picture, file);
-  const std::size_t view = add_view(content, picture.data(), picture.size(), 0);
-  if (!root.contains("textures")) {
-    root["textures"] = root["images"] = Json::array();
-    root["samplers"] =
-        Json::array({Json{{"magFilter", kLinear}, {"minFilter", kLinearMipmapLinear}}});
+std::size_t add_image(Content& content, Json& root, const std::string& picture,
+                      const std::string& file) {
+  const auto [found, is_new] = content.images.try_emplace(picture, content.images.size());
+  if (is_new) {
+    const char* type = mime_type(picture, file);
+    const std::size_t view = add_view(content, picture.data(), picture.size(), 0);
+    root["images"].push_back({{"bufferView", view}, {"mimeType", type}});
   }
-  root["images"].push_back({{"bufferView", view}, {"mimeType", type}});
-  root["textures"].push_back({{"sampler", 0}, {"source", root["images"].size() - 1}});
-  return {{"index", root["textures"].size() - 1}};
+  return found->second;
+}
+
+// What is glTF's default is not said, but for the filters, which have none.
+std::size_t add_sampler(Content& content, Json& root, const GlbSampler& sampler) {
+  const auto [found, is_new] = content.samplers.try_emplace(sampler, content.samplers.size());
+  if (is_new) {
+    Json json{{"magFilter", sampler.mag_filter}, {"minFilter", sampler.min_filter}};
+    if (sampler.wrap_s != GlbSampler::kRepeat) json["wrapS"] = sampler.wrap_s;
+    if (sampler.wrap_t != GlbSampler::kRepeat) json["wrapT"] = sampler.wrap_t;
+    root["samplers"].push_back(json);
+  }
+  return found->second;
+}
+
+// Adds a picture's texture, once; gives what a material says of it.
+Json add_texture(Content& content, Json& root, const std::string& picture,
+                 const GlbSampler& sampler, const std::string& file) {
+  const std::pair key{add_image(content, root, picture, file), add_sampler(content, root, sampler)};
+  const auto [found, is_new] = content.textures.try_emplace(key, content.textures.size());
+  if (is_new) root["textures"].push_back({{"sampler", key.second}, {"source", key.first}});
+  return {{"index", found->second}};
 }
 
 // What is glTF's default is not said.
@@ -241,8 +257,9 @@ Json format_glb_material(Content& content, Json& root, const GlbMaterial& m,
   const glm::dvec4& c = m.base_color_factor;
   if (c != glm::dvec4(1)) pbr["baseColorFactor"] = {c.x, c.y, c.z, c.w};
   if (!m.base_color.empty())
-    pbr["baseColorTexture"] = add_texture(content, root, m.base_color, file);
-  if (!m.normal_map.empty()) out["normalTexture"] = add_texture(content, root, m.normal_map, file);
+    pbr["baseColorTexture"] = add_texture(content, root, m.base_color, m.color_sampler, file);
+  if (!m.normal_map.empty())
+    out["normalTexture"] = add_texture(content, root, m.normal_map, m.normal_sampler, file);
   if (!m.normal_map.empty() && m.normal_scale != 1) out["normalTexture"]["scale"] = m.normal_scale;
   if (m.emissive != glm::dvec3(0))
     out["emissiveFactor"] = {m.emissive.x, m.emissive.y, m.emissive.z};

@@ -11,6 +11,9 @@
 #include "base/srgb.h"
 #include "image/library.h"
 #include "image/memory_input.h"
+#include "image/picture_facts.h"
+#include "image/pnm.h"
+#include "image/webp.h"
 
 namespace viewcell {
 namespace {
@@ -59,16 +62,21 @@ Image<Pixel> gather(const Samples<Sample>& samples, const OIIO::ImageSpec& spec,
   return image;
 }
 
-// Undoes the multiplication of the WebP reader.
+// Of 8 bits; 0 where alpha is 0.
 void divide_by_alpha(ImageRgba8& image) {
   for (Rgba8& p : image.pixels)
     for (std::size_t c = 0; c < 3 && p[3] > 0; ++c)
       p[c] = static_cast<std::uint8_t>(std::min(255, (p[c] * 255 + p[3] / 2) / p[3]));
 }
 
+// Of 16 bits or linear, whose full alpha is given.
+void divide_by_alpha(ImageRgbaFloat& image, float full) {
+  for (RgbaFloat& p : image.pixels)
+    for (std::size_t c = 0; c < 3 && p[3] > 0; ++c) p[c] = p[c] * full / p[3];
+}
+
 // BMP and TGA of 32 bits often leave the fourth byte at 0 and mean nothing by it.
 void mend_alpha(ImageFormat format, ImageRgba8& image, Remarks* remarks) {
-  if (format == ImageFormat::webp) divide_by_alpha(image);
   if (format != ImageFormat::bmp && format != ImageFormat::targa) return;
   const auto is_clear = [](const Rgba8& pixel) { return pixel[3] == 0; };
   if (!std::all_of(image.pixels.begin(), image.pixels.end(), is_clear)) return;
@@ -83,45 +91,96 @@ SampleKind kind_of(const OIIO::TypeDesc& type, const std::string& file) {
   return type == OIIO::TypeUInt8 ? SampleKind::code8 : SampleKind::code16;
 }
 
+// Whether colours were stored multiplied by alpha: EXR's rule; TIFF and TGA say it.
+bool is_multiplied(const MemoryInput& input, std::string_view bytes) {
+  if (input.spec.alpha_channel < 0) return false;
+  switch (input.format) {
+    case ImageFormat::openexr:
+      return true;
+    case ImageFormat::tiff:
+      return input.spec.get_int_attribute("oiio:UnassociatedAlpha") == 0;
+    case ImageFormat::targa:
+      return targa_is_multiplied(bytes);
+    default:
+      return false;
+  }
+}
+
 // An opened picture and how its channels become RGBA.
 struct OpenedPicture {
   MemoryInput input;
+  std::string_view bytes;
   ChannelMap map;
   SampleKind kind;
+  bool is_multiplied;
 };
 
 OpenedPicture open_picture(std::string_view bytes, const std::string& file,
                            const ReadImageOptions& options) {
-  OpenedPicture opened{open_memory(bytes, file, options.limits, options.remarks), {}, {}};
+  OpenedPicture opened{
+      open_memory(bytes, file, options.limits, options.remarks), bytes, {}, {}, false};
   opened.map = map_channels(opened.input.spec, opened.input.format, file);
   opened.kind = kind_of(opened.input.spec.format, file);
   remark_channels(opened.input.spec, opened.map, options.remarks);
+  opened.is_multiplied = is_multiplied(opened.input, bytes);
   return opened;
 }
 
-ImageRgba8 read_codes(OpenedPicture& opened, const std::string& file, Remarks* remarks) {
-  MemoryInput& input = opened.input;
-  const Rgba8 fill{0, 0, 0, 255};
-  if (opened.kind == SampleKind::linear)
-    return gather(decode<float>(input, opened.map.n_read, file), input.spec, opened.map, fill,
-                  [](float x, std::size_t c) {
-                    if (c < 3) return srgb8_from_linear(x);
-                    return static_cast<std::uint8_t>(std::lround(255 * std::clamp(x, 0.f, 1.f)));
-                  });
-  ImageRgba8 image = gather(decode<std::uint8_t>(input, opened.map.n_read, file), input.spec,
-                            opened.map, fill, [](std::uint8_t x, std::size_t) { return x; });
-  mend_alpha(input.format, image, remarks);
-  return image;
-}
+constexpr const char* kDivided = "colours stored multiplied by alpha, divided by it";
 
+// As stored, but for the depth.
 ImageRgbaFloat read_samples(OpenedPicture& opened, const std::string& file) {
   MemoryInput& input = opened.input;
   const auto keep = [](auto x, std::size_t) { return static_cast<float>(x); };
   if (opened.kind == SampleKind::linear)
     return gather(decode<float>(input, opened.map.n_read, file), input.spec, opened.map,
                   RgbaFloat{0, 0, 0, 1}, keep);
+  if (input.format == ImageFormat::pnm)
+    return gather(decode_pnm(opened.bytes, file), input.spec, opened.map, RgbaFloat{0, 0, 0, 65535},
+                  keep);
   return gather(decode<std::uint16_t>(input, opened.map.n_read, file), input.spec, opened.map,
                 RgbaFloat{0, 0, 0, 65535}, keep);
+}
+
+std::uint8_t round_code(float x) {
+  return x > 0 ? static_cast<std::uint8_t>(std::lround(std::min(x, 255.f))) : 0;
+}
+
+// Linear samples of straight alpha as codes.
+ImageRgba8 encode_srgb(const ImageRgbaFloat& linear) {
+  ImageRgba8 image(linear.width_px, linear.height_px, {});
+  for (std::size_t p = 0; p < image.pixels.size(); ++p) {
+    const RgbaFloat& from = linear.pixels[p];
+    for (std::size_t c = 0; c < 3; ++c) image.pixels[p][c] = srgb8_from_linear(from[c]);
+    image.pixels[p][3] = round_code(255 * from[3]);
+  }
+  return image;
+}
+
+ImageRgba8 round_to_8_bits(const ImageRgbaFloat& samples) {
+  ImageRgba8 image(samples.width_px, samples.height_px, {});
+  for (std::size_t p = 0; p < image.pixels.size(); ++p)
+    for (std::size_t c = 0; c < 4; ++c) image.pixels[p][c] = round_code(samples.pixels[p][c] / 257);
+  return image;
+}
+
+ImageRgba8 read_codes(OpenedPicture& opened, const std::string& file, Remarks* remarks) {
+  MemoryInput& input = opened.input;
+  if (opened.is_multiplied) add_remark(remarks, kDivided);
+  if (opened.kind != SampleKind::code8 || input.format == ImageFormat::pnm) {
+    const bool is_linear = opened.kind == SampleKind::linear;
+    ImageRgbaFloat samples = read_samples(opened, file);
+    if (opened.is_multiplied) divide_by_alpha(samples, is_linear ? 1.f : 65535.f);
+    return is_linear ? encode_srgb(samples) : round_to_8_bits(samples);
+  }
+  if (input.format == ImageFormat::webp)
+    return decode_webp(opened.bytes, input.spec.width, input.spec.height, file);
+  ImageRgba8 image =
+      gather(decode<std::uint8_t>(input, opened.map.n_read, file), input.spec, opened.map,
+             Rgba8{0, 0, 0, 255}, [](std::uint8_t x, std::size_t) { return x; });
+  if (opened.is_multiplied) divide_by_alpha(image);
+  mend_alpha(input.format, image, remarks);
+  return image;
 }
 
 }  // namespace
@@ -146,10 +205,15 @@ DeepImage read_deep_image(const std::filesystem::path& path, const ReadImageOpti
   OpenedPicture opened = open_picture(bytes, file, options);
   DeepImage image;
   image.kind = opened.kind;
-  if (opened.kind == SampleKind::code8)
+  if (opened.kind == SampleKind::code8) {
     image.codes = read_codes(opened, file, options.remarks);
-  else
-    image.samples = read_samples(opened, file);
+    return image;
+  }
+  image.samples = read_samples(opened, file);
+  if (opened.is_multiplied && opened.input.format != ImageFormat::openexr) {
+    add_remark(options.remarks, kDivided);
+    divide_by_alpha(image.samples, opened.kind == SampleKind::linear ? 1.f : 65535.f);
+  }
   return image;
 }
 

@@ -24,9 +24,11 @@ struct ReadImageOptions {
 /// as sRGB, their alpha as it is. An EXR gives its data window. The first picture of several. BMP
 /// and TGA whose alpha is 0 everywhere are opaque: to most that write them it is padding.
 ///
+/// Colours that a file stores multiplied by alpha (EXR; TIFF and TGA that say so) are divided by
+/// it, remarked; those under alpha 0 stay as stored.
+///
 /// The size is checked before pixels are read. Throws InputError naming the file. Safe from many
-/// threads at once. Known limit: OpenImageIO hands out a WebP's colour multiplied by alpha, so
-/// where alpha is small it comes back coarse, and 0 where alpha is 0.
+/// threads at once.
 ImageRgba8 read_image_rgba8(const std::filesystem::path& file,
                             const ReadImageOptions& options = {});
 
@@ -50,8 +52,8 @@ struct DeepImage {
   int height_px() const { return kind == SampleKind::code8 ? codes.height_px : samples.height_px; }
 };
 
-/// As read_image_rgba8, but for the depth: nothing is rounded, clamped or encoded. Where there is
-/// no alpha it is 255, 65535 or 1.
+/// As read_image_rgba8, but for the depth: nothing is rounded, clamped or encoded, and an EXR's
+/// colours stay multiplied by alpha. Where there is no alpha it is 255, 65535 or 1.
 DeepImage read_deep_image(const std::filesystem::path& file, const ReadImageOptions& options = {});
 
 enum class PngAlpha {

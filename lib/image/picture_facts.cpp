@@ -15,12 +15,6 @@ std::uint64_t least_beyond_free(std::uint64_t n_pixels, std::uint64_t pixels_per
   return n_pixels <= kFreePixels ? 0 : (n_pixels - kFreePixels) / pixels_per_byte;
 }
 
-std::uint64_t area_of(long long width, long long height) {
-  constexpr long long kMost = 1LL << 31;
-  if (width < 1 || height < 1 || width > kMost || height > kMost) return 0;  // refused by size
-  return static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
-}
-
 // --- GIF ---
 
 // Follows: GIF89a specification, 1990.
@@ -57,10 +51,9 @@ GifBlocks walk_gif(const HeaderBytes& gif) {
   return blocks;
 }
 
-// --- text headers of PNM and HDR ---
+}  // namespace
 
-// The next word; white space and comments (# to the line's end) before it are passed over.
-std::string next_word(std::string_view bytes, std::size_t& i) {
+std::string next_header_word(std::string_view bytes, std::size_t& i) {
   constexpr std::size_t kMostHeader = 1 << 16;
   const auto is_space = [&] { return std::isspace(static_cast<unsigned char>(bytes[i])) != 0; };
   const std::size_t end = std::min(bytes.size(), i + kMostHeader);
@@ -75,32 +68,18 @@ std::string next_word(std::string_view bytes, std::size_t& i) {
   return word;
 }
 
-// A number of at most nine digits; -1 for anything else.
-long long parse_side(const std::string& word) {
+long long parse_header_number(const std::string& word) {
   if (word.empty() || word.size() > 9) return -1;
   for (const char c : word)
     if (c < '0' || c > '9') return -1;
   return std::stoll(word);
 }
 
-struct PnmKind {
-  std::uint64_t n_channels, bits;  // bits of a sample, at least
-  bool has_maximum, is_text;
-};
-
-std::optional<PnmKind> kind_of_pnm(const std::string& magic) {
-  if (magic == "P1") return PnmKind{1, 8, false, true};
-  if (magic == "P2") return PnmKind{1, 16, true, true};  // a digit and a space
-  if (magic == "P3") return PnmKind{3, 16, true, true};
-  if (magic == "P4") return PnmKind{1, 1, false, false};
-  if (magic == "P5") return PnmKind{1, 8, true, false};
-  if (magic == "P6") return PnmKind{3, 8, true, false};
-  if (magic == "PF") return PnmKind{3, 32, true, false};
-  if (magic == "Pf") return PnmKind{1, 32, true, false};
-  return std::nullopt;
+std::uint64_t area_of(long long width, long long height) {
+  constexpr long long kMost = 1LL << 31;
+  if (width < 1 || height < 1 || width > kMost || height > kMost) return 0;  // refused by size
+  return static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
 }
-
-}  // namespace
 
 std::optional<PictureFacts> webp_facts(std::string_view bytes) {
   const HeaderBytes webp(bytes);
@@ -183,35 +162,15 @@ std::optional<PictureFacts> targa_facts(std::string_view bytes) {
   return facts;
 }
 
-std::optional<PictureFacts> pnm_facts(std::string_view bytes) {
-  std::size_t i = 0;
-  const std::optional<PnmKind> kind = kind_of_pnm(next_word(bytes, i));
-  if (!kind) return std::nullopt;
-  PictureFacts facts;
-  facts.width_px = parse_side(next_word(bytes, i));
-  facts.height_px = parse_side(next_word(bytes, i));
-  if (facts.width_px < 0 || facts.height_px < 0) return std::nullopt;
-  std::uint64_t bits = kind->bits;
-  if (kind->has_maximum) {
-    const long long maximum = parse_side(next_word(bytes, i));
-    if (!kind->is_text && bits == 8 && maximum > 255) bits = 16;
-  }
-  const std::uint64_t n = area_of(facts.width_px, facts.height_px);
-  facts.n_bytes = bytes.size() - std::min(i, bytes.size());
-  facts.least_bytes = n * kind->n_channels * bits / 8;
-  if (kind->is_text && facts.least_bytes > 0) --facts.least_bytes;  // no space need end the last
-  return facts;
-}
-
 std::optional<PictureFacts> hdr_facts(std::string_view bytes) {
   // Lines of words up to an empty one, then "-Y HEIGHT +X WIDTH".
   const std::size_t blank = bytes.find("\n\n");
   if (blank == std::string_view::npos) return std::nullopt;
   std::size_t i = blank + 2;
-  const std::string first = next_word(bytes, i);
-  const long long a = parse_side(next_word(bytes, i));
-  const std::string second = next_word(bytes, i);
-  const long long b = parse_side(next_word(bytes, i));
+  const std::string first = next_header_word(bytes, i);
+  const long long a = parse_header_number(next_header_word(bytes, i));
+  const std::string second = next_header_word(bytes, i);
+  const long long b = parse_header_number(next_header_word(bytes, i));
   if (a < 0 || b < 0 || first.size() != 2 || second.size() != 2) return std::nullopt;
   const bool is_y_first = first[1] == 'Y';
   PictureFacts facts{is_y_first ? b : a, is_y_first ? a : b};
@@ -221,6 +180,16 @@ std::optional<PictureFacts> hdr_facts(std::string_view bytes) {
   const bool may_run = facts.width_px >= 8 && facts.width_px <= 32767;
   facts.least_bytes = may_run ? area / 127 * 8 : area * 4;
   return facts;
+}
+
+bool targa_is_multiplied(std::string_view bytes) {
+  // The footer of version 2 points to the extension area, whose last byte is the kind of alpha.
+  constexpr std::size_t kFooter = 26, kKindAt = 494;
+  constexpr std::uint32_t kMultiplied = 4;
+  const HeaderBytes tga(bytes);
+  if (bytes.size() < kFooter || !tga.has_at(bytes.size() - 18, "TRUEVISION-XFILE")) return false;
+  const std::size_t extension = tga.le32(bytes.size() - kFooter);
+  return extension > 0 && tga.u8(extension + kKindAt) == kMultiplied;
 }
 
 }  // namespace viewcell

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <string_view>
 
 namespace viewcell {
@@ -51,5 +52,16 @@ std::optional<PictureFacts> bmp_facts(std::string_view bytes);
 std::optional<PictureFacts> targa_facts(std::string_view bytes);
 std::optional<PictureFacts> pnm_facts(std::string_view bytes);
 std::optional<PictureFacts> hdr_facts(std::string_view bytes);
+
+/// Whether a TGA says that its colours are multiplied by alpha.
+bool targa_is_multiplied(std::string_view bytes);
+
+/// The next word of a text header from i, which moves behind it; white space and comments (# to
+/// the line's end) before it are passed over.
+std::string next_header_word(std::string_view bytes, std::size_t& i);
+/// A number of at most nine digits; -1 for anything else.
+long long parse_header_number(const std::string& word);
+/// 0 where a side is no side.
+std::uint64_t area_of(long long width, long long height);
 
 }  // namespace viewcell

@@ -193,6 +193,12 @@ holds "$(mean of-patch free) > $(mean of-patch unadapted) + 1" || fail "--onto: 
 expect 0 "$texadapt" patch.pm patch.png --engine rebake --onto free.ply --size 1024x256 -o free.png --mesh atlas.obj
 shots atlas.obj free.png atlas patch.obj --unlit
 holds "$(mean of-patch atlas) > $(mean of-patch unadapted) + 1" || fail "--onto, an OBJ: $(mean of-patch atlas) dB"
+grep -q "vertices farther than" "$log/err" && fail "a mesh that lies where it should is said to be far"
+# Twice as large: its boxes meet, its vertices do not.
+awk '/^v / { print "v", 2 * $2, 2 * $3, 2 * $4; next } { print }' atlas.obj >large.obj
+expect 0 "$texadapt" patch.pm patch.png --engine rebake --onto large.obj -o large.png
+grep -q "large.obj: .*vertices farther than a tenth .* from patch.pm" "$log/err" ||
+  fail "--onto a mesh of twice the size: no word: $(cat "$log/err")"
 # Far from the origin, where the two files have offsets of their own.
 far() { awk '/^v / { printf "v %.6f %.6f %s\n", $2 + 500000, $3 + 5200000, $4; next } { print }' "$1"; }
 far patch.obj >far.obj

@@ -97,6 +97,23 @@ TEST(MaterialPictures, OfAGlbEachMaterialHasItsOwn) {
   EXPECT_EQ(find_material(model, "none"), nullptr);
 }
 
+TEST(MaterialPictures, SamplersAreKept) {
+  const TemporaryFolder folder;
+  GltfBuilder gltf = with_materials(R"([
+    {"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}, "normalTexture": {"index": 1}},
+    {"pbrMetallicRoughness": {"baseColorTexture": {"index": 2}}}])",
+                                    3);
+  gltf.json["samplers"] = Json::parse(R"([{"wrapS": 33648, "magFilter": 9728, "minFilter": 9984},
+    {"wrapT": 10496, "minFilter": 1}])");
+  gltf.json["textures"][0]["sampler"] = 0;
+  gltf.json["textures"][2]["sampler"] = 1;
+  const MaterialPictures model = read(folder, gltf);
+  EXPECT_EQ(model.materials[0].look.color_sampler,
+            (GlbSampler{.wrap_s = 33648, .mag_filter = 9728, .min_filter = 9984}));
+  EXPECT_EQ(model.materials[0].look.normal_sampler, GlbSampler());
+  EXPECT_EQ(model.materials[1].look.color_sampler, (GlbSampler{.wrap_t = 33071}));
+}
+
 TEST(MaterialPictures, WhatIsLeftOutIsSaid) {
   const TemporaryFolder folder;
   GltfBuilder gltf = with_materials(R"([

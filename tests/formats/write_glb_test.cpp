@@ -341,6 +341,27 @@ TEST(WriteGlb, MaterialsArePrimitivesOverOneListOfVertices) {
     "emissiveFactor": [0.0, 0.0, 1.0], "doubleSided": true})"));
 }
 
+TEST(WriteGlb, SamplersAreWrittenOnce) {
+  TriMesh mesh = make_strip();
+  GlbOptions options;
+  options.materials.resize(4);
+  for (GlbMaterial& m : options.materials) m.base_color = kPng;
+  options.materials[1].color_sampler.wrap_t = GlbSampler::kMirrored;
+  options.materials[2].color_sampler = options.materials[1].color_sampler;
+  options.materials[3].color_sampler.mag_filter = GlbSampler::kNearest;
+  const Json json = write_json(mesh, options);
+  EXPECT_EQ(json["images"].size(), 1u);
+  EXPECT_EQ(json["samplers"], Json::parse(R"([{"magFilter": 9729, "minFilter": 9987},
+    {"magFilter": 9729, "minFilter": 9987, "wrapT": 33648},
+    {"magFilter": 9728, "minFilter": 9987}])"));
+  std::vector<int> samplers;
+  for (const Json& m : json["materials"]) {
+    const std::size_t texture = m["pbrMetallicRoughness"]["baseColorTexture"]["index"];
+    samplers.push_back(json["textures"][texture]["sampler"]);
+  }
+  EXPECT_EQ(samplers, (std::vector<int>{0, 1, 1, 2}));
+}
+
 TEST(WriteGlb, MaterialsComeBackWithTheirTriangles) {
   const TemporaryFolder folder;
   TriMesh mesh = make_strip();

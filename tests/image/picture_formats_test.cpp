@@ -368,6 +368,7 @@ TEST(PictureFormats, TiffStripsAndTiles) {
     OIIO::ImageSpec spec(width, height, n_channels, OIIO::TypeUInt8);
     spec.attribute("compression", compression);
     spec.attribute("tiff:RowsPerStrip", height);
+    spec.attribute("oiio:UnassociatedAlpha", 1);
     spec.tile_width = spec.tile_height = tile;
     const auto output = OIIO::ImageOutput::create(file);
     EXPECT_TRUE(output->open(file, spec));

@@ -2,6 +2,7 @@
 #include "base/error.h"
 #include "common/mesh_input.h"
 #include "common/stopwatch.h"
+#include "mesh/closest_point.h"
 #include "mesh/offset.h"
 #include "mesh/used_vertices.h"
 #include "texadapt/level_writer.h"
@@ -16,6 +17,27 @@ void check_place(const TexadaptArguments& a, const Box& onto, const Box& finest)
   for (int k = 0; k < 3; ++k)
     if (onto.lo[k] > finest.hi[k] || onto.hi[k] < finest.lo[k])
       throw InputError(a.onto, "", "lies elsewhere than " + a.pm + ": their boxes do not meet");
+}
+
+// Where much of the mesh is far from all that it shows: another scale, or other axes.
+void remark_far_vertices(const Tool& tool, const TexadaptArguments& a, const TriMesh& onto,
+                         const TriMesh& finest) {
+  constexpr double kFar = 0.1;
+  const Box box = surface_box(finest);
+  const double far = kFar * glm::length(box.hi - box.lo);
+  Box domain = surface_box(onto);
+  domain.add(box.lo), domain.add(box.hi);
+  const ClosestPointFinder finder(finest, domain, tool.common().n_threads);
+  std::size_t n_far = 0;
+  const std::size_t n_vertices = onto.positions.size();
+  for (const std::uint32_t v : find_used_vertices(onto.triangles, n_vertices).source)
+    n_far += finder.find(glm::dvec3(onto.positions[v])).distance > far;
+  Remarks remarks;
+  add_remark(&remarks,
+             "vertices farther than a tenth of the box's diagonal from " + a.pm +
+                 ": they show what is nearest (is it of the same scale and axes?)",
+             n_far);
+  tool.remark(a.onto, remarks);
 }
 
 // With texture coordinates; its materials are not those of the picture.
@@ -39,6 +61,7 @@ TriMesh read_target(const Tool& tool, const TexadaptArguments& a, const Texadapt
 
 Json rebake_onto(const Tool& tool, const TexadaptArguments& a, const TexadaptInputs& in) {
   const TriMesh mesh = read_target(tool, a, in);
+  remark_far_vertices(tool, a, mesh, in.finest);
   Stopwatch watch;
   LevelWriter(tool, a, in).write(0, mesh, nullptr, nullptr, [&](const ImageRgba8& texture) {
     return rebake_texture(mesh, in.finest, texture,
