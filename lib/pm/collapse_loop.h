@@ -82,7 +82,7 @@ class CollapseLoop {
         metric_(metric),
         heap_(size32(mesh)),
         target_(mesh.n_vertices(), 0),
-        stale_(mesh.n_vertices(), false) {
+        n_stale_(mesh.n_vertices(), 0) {
     choose_all();
   }
 
@@ -108,7 +108,7 @@ class CollapseLoop {
       const std::uint32_t u = heap_.top(), v = target_[u];
       fetch_next();
       float cost = heap_.key(u);
-      if (stale_[u] || has_risen(u, v, limits.max_cost, cost)) {
+      if (n_stale_[u] > 0 || has_risen(u, v, limits.max_cost, cost)) {
         choose(u);
         continue;
       }
@@ -149,6 +149,9 @@ class CollapseLoop {
     return 1;
   }
   static constexpr int kReach = reach();
+  // A lazy key that is too high would never come up: costs into optimal positions fall, too, when
+  // what is around them is gone, and are looked at again after so many changes.
+  static constexpr int kMostStale = kHasPlacement && kReach > 1 ? 8 : 256;
 
   static std::uint32_t size32(const CollapseMesh& mesh) {
     return static_cast<std::uint32_t>(mesh.n_vertices());
@@ -248,7 +251,7 @@ class CollapseLoop {
     if constexpr (requires { metric_.fetch(0u); }) {
       const auto fetch = [&](std::uint32_t a, std::uint32_t) { metric_.fetch(a); };
       mesh_.for_each_triangle(first, fetch);
-      if (!stale_[first] && !mesh_.is_hub(target_[first]))
+      if (n_stale_[first] == 0 && !mesh_.is_hub(target_[first]))
         mesh_.for_each_triangle(target_[first], fetch);
     }
   }
@@ -285,7 +288,7 @@ class CollapseLoop {
 
   // Puts u into the heap with its cheapest target, legal or not.
   void choose(std::uint32_t u) {
-    stale_[u] = false;
+    n_stale_[u] = 0;
     gather_candidates(u);
     enter(u, pop_candidate(u));
   }
@@ -326,8 +329,8 @@ class CollapseLoop {
 
   // Costs of w have changed: all of them, or those towards u and v.
   void revise(std::uint32_t w, std::uint32_t u, std::uint32_t v, bool lazy, bool all) {
-    if (lazy && heap_.contains(w))
-      stale_[w] = true;
+    if (lazy && heap_.contains(w) && n_stale_[w] + 1 < kMostStale)
+      n_stale_[w] = static_cast<std::uint8_t>(n_stale_[w] + 1);
     else if (all)
       choose(w);
     else
@@ -348,7 +351,7 @@ class CollapseLoop {
   Metric& metric_;
   IndexedHeap heap_;
   std::vector<std::uint32_t> target_;  // vertex -> the vertex that it would collapse into
-  std::vector<bool> stale_;            // its key may be wrong
+  std::vector<std::uint8_t> n_stale_;  // changes that its key knows nothing of
   std::vector<std::uint32_t> ring_, around_;
   std::vector<Candidate> candidates_;
   CollapseTrace trace_;

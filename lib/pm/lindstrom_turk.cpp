@@ -179,14 +179,18 @@ void LindstromTurkMetric::gather_boundary(std::uint32_t u, std::uint32_t w, std:
   }
 }
 
-// Squared distances to the vertices around, for each triangle of u or v the first after u or v.
+// Squared distances to the vertices around, for each triangle of u or v the first after u or v,
+// each over what it is from the edge's middle: in a fan, whose tip is far, it would pull u and v
+// over their neighbours.
 LindstromTurkMetric::Quadratic LindstromTurkMetric::make_shape(std::uint32_t u,
                                                                std::uint32_t v) const {
+  const glm::dvec3 middle = 0.5 * between(u, v);
   Quadratic shape;
   const auto add = [&](std::uint32_t a) {
-    const glm::dvec3 p = between(u, a);
-    for (std::size_t i = 0; i < 3; ++i) shape.a[i] += 1;
-    shape.b -= p;
+    const glm::dvec3 p = between(u, a), from_middle = p - middle;
+    const double weight = 1 / (glm::dot(from_middle, from_middle) + glm::dot(middle, middle));
+    for (std::size_t i = 0; i < 3; ++i) shape.a[i] += weight;
+    shape.b -= weight * p;
   };
   mesh_.for_each_triangle(u, [&](std::uint32_t a, std::uint32_t) { add(a); });
   mesh_.for_each_triangle(v, [&](std::uint32_t a, std::uint32_t b) {
