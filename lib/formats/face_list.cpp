@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
+#include <limits>
 #include <utility>
 
+#include "base/error.h"
 #include "formats/format_number.h"
 #include "mesh/offset.h"
 #include "mesh/triangulate.h"
@@ -151,6 +154,29 @@ void cut_faces(const FaceList& faces, TriMesh& mesh, TriangleSources* sources, R
   }
   add_remark(remarks, "faces of fewer than three corners, left out", n_short);
   add_remark(remarks, "polygons that cross themselves or have no area, cut into fans", n_crossed);
+}
+
+void mend_unused_places(std::vector<glm::dvec3>& places, std::span<const std::uint32_t> corners,
+                        const std::string& file, Remarks* remarks,
+                        std::span<const std::int64_t> lines) {
+  constexpr double kMost = std::numeric_limits<float>::max();
+  std::vector<std::size_t> nowhere;
+  for (std::size_t v = 0; v < places.size(); ++v)
+    for (int k = 0; k < 3; ++k)
+      if (!(std::abs(places[v][k]) <= kMost) && (nowhere.empty() || nowhere.back() != v))
+        nowhere.push_back(v);
+  if (nowhere.empty()) return;
+  std::vector<bool> is_used(places.size(), corners.empty());
+  for (const std::uint32_t v : corners) is_used[v] = true;
+  for (std::size_t i = 0; i < nowhere.size(); ++i) {
+    const std::size_t v = nowhere[i];
+    const std::string line = i < lines.size() ? "line " + std::to_string(lines[i]) + ": " : "";
+    if (is_used[v])
+      throw InputError(file, line + "vertex " + std::to_string(v),
+                       "a coordinate is not a finite number");
+    places[v] = places[corners[0]];
+  }
+  add_remark(remarks, "vertices that no face uses, without a position", nowhere.size());
 }
 
 void place_vertices(std::span<const glm::dvec3> places, std::span<const std::uint32_t> corners,

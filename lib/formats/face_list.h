@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "base/remarks.h"
@@ -40,6 +41,14 @@ inline std::span<const std::uint32_t> corners_of(const TriMesh& mesh) {
   if (mesh.triangles.empty()) return {};
   return {mesh.triangles[0].data(), 3 * mesh.triangles.size()};
 }
+
+/// A vertex that no corner names may be nowhere (NaN, infinite), as in scans that are a grid with
+/// holes: it goes where the first corner is, remarked. Throws InputError(file) for one that is
+/// named, and where none is named, for any. lines: of the file, of those that are nowhere, in
+/// order; empty: not known.
+void mend_unused_places(std::vector<glm::dvec3>& places, std::span<const std::uint32_t> corners,
+                        const std::string& file, Remarks* remarks,
+                        std::span<const std::int64_t> lines = {});
 
 /// Sets positions and offset (mesh/offset.h) to vertices at `places`, of which those count that
 /// corners name; where none is named, all. stated: an offset that the file names, taken if it

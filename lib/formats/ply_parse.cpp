@@ -1,6 +1,7 @@
 // parse_ply: header, then rows as text or as bytes.
 #include <algorithm>
 #include <bit>
+#include <cctype>
 #include <charconv>
 #include <cstring>
 #include <limits>
@@ -46,6 +47,7 @@ class HeaderParser {
     for (std::string_view line = next_line(); line != "end_header"; line = next_line())
       parse_line(line);
     if (!has_format_) fail("the header has no line 'format'");
+    for (PlyElement& element : document_.elements) make_names_small(element);
     header_.n_bytes = at_;
     return header_;
   }
@@ -134,6 +136,15 @@ class HeaderParser {
     if (element.find(column.name)) fail("property '" + column.name + "' stands twice");
     if (element.columns.size() == kMostProperties) fail("too many properties");
     element.columns.push_back(std::move(column));
+  }
+
+  // "X" is "x", where there is no other.
+  static void make_names_small(PlyElement& element) {
+    for (PlyColumn& column : element.columns) {
+      std::string name = column.name;
+      for (char& c : name) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+      if (!element.find(name)) column.name = name;
+    }
   }
 
   PlyType parse_type(std::string_view word) {

@@ -30,6 +30,14 @@ bool is_elsewhere(const std::string& name) {
          name.find("..") != std::string::npos;
 }
 
+std::size_t count_lines(std::string_view text, std::string_view start) {
+  std::size_t n = 0;
+  for (std::size_t at = text.find(start); at != std::string_view::npos;
+       at = text.find(start, at + 1))
+    n += at == 0 || text[at - 1] == '\n' || text[at - 1] == '\r';
+  return n;
+}
+
 // What faces refer to by numbers: how many there are, and the largest number so far, with its line:
 // it may stand below.
 struct ObjElements {
@@ -41,12 +49,16 @@ struct ObjElements {
 class ObjParser {
  public:
   ObjParser(std::string_view bytes, const std::filesystem::path& file, Remarks* remarks)
-      : text_(bytes, file.string()), file_(file), remarks_(remarks) {}
+      : text_(bytes, file.string()), file_(file), remarks_(remarks) {
+    add_remark(remarks, "comments '#MRGB' (colours of ZBrush), passed over",
+               count_lines(bytes, "#MRGB "));
+  }
 
   TriMesh parse() {
     for (; !text_.at_end(); text_.skip_line()) parse_line(text_.word());
     for (const ObjElements& elements : {positions_of_, texcoords_of_, normals_of_})
       check_most(elements);
+    mend_unused_places(places_, faces_.vertices, file_.string(), remarks_, nowhere_lines_);
     place_vertices(places_, faces_.vertices, mesh_, remarks_);
     cut_faces(faces_, mesh_, &sources_, remarks_);
     finish_colors();
@@ -99,7 +111,9 @@ class ObjParser {
   void parse_vertex() {
     const std::size_t vertex = places_.size();
     glm::dvec3 place;
-    for (int k = 0; k < 3; ++k) place[k] = text_.coordinate(text_.word_in_line(), "vertex", vertex);
+    for (int k = 0; k < 3; ++k)
+      place[k] = text_.coordinate_or_nan(text_.word_in_line(), "vertex", vertex);
+    if (std::isnan(place.x + place.y + place.z)) nowhere_lines_.push_back(text_.line());
     places_.push_back(place);
     positions_of_.count = places_.size();
     std::array<float, 4> more;
@@ -265,6 +279,7 @@ class ObjParser {
   Remarks* remarks_;
   TriMesh mesh_;
   std::vector<glm::dvec3> places_;
+  std::vector<std::int64_t> nowhere_lines_;  // of vertices without a position
   std::vector<glm::vec2> texcoords_;
   std::vector<glm::vec3> normals_;
   ObjElements positions_of_{"vertex"}, texcoords_of_{"texture coordinate"}, normals_of_{"normal"};

@@ -1,6 +1,7 @@
 // Source: the Object File Format of Geomview.
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 
 #include "base/error.h"
 #include "base/srgb.h"
@@ -48,6 +49,7 @@ OffMagic parse_magic(std::string_view word) {
 struct OffHeader {
   OffMagic magic;
   std::uint64_t n_vertices = 0, n_faces = 0;
+  bool is_one_line = false;  // more than counts stands on their line: lines mean nothing
 };
 
 std::uint64_t parse_count(std::string_view word, const char* what, const TextCursor& text) {
@@ -71,7 +73,14 @@ OffHeader parse_header(TextCursor& text) {
   if (!parse_integer(word, ignored)) text.fail("is not an OFF file: expected 'OFF' and counts");
   header.n_vertices = parse_count(word, "vertices", text);
   header.n_faces = parse_count(text.word(), "faces", text);
-  text.skip_line();  // the number of edges, which many writers leave out or get wrong
+  text.word_in_line();  // the number of edges, which many writers leave out or get wrong
+  const TextCursor behind = text;
+  header.is_one_line = !text.word_in_line().empty();
+  if (header.is_one_line) text = behind;
+  if (header.is_one_line &&
+      (header.magic.has_colors || header.magic.has_normals || header.magic.has_texcoords))
+    text.fail("without lines, vertices are read that are three coordinates alone");
+  if (!header.is_one_line) text.skip_line();
   return header;
 }
 
@@ -94,13 +103,14 @@ void start_line(TextCursor& text) {
 class OffParser {
  public:
   OffParser(std::string_view bytes, const std::string& file, Remarks* remarks)
-      : text_(bytes, file), remarks_(remarks), header_(parse_header(text_)) {
+      : text_(bytes, file), file_(file), remarks_(remarks), header_(parse_header(text_)) {
     check_counts(header_, text_);
   }
 
   TriMesh parse() {
     read_vertices();
     read_faces();
+    mend_unused_places(places_, faces_.vertices, file_, remarks_, nowhere_lines_);
     place_vertices(places_, faces_.vertices, mesh_, remarks_);
     cut_faces(faces_, mesh_, nullptr, remarks_);
     for (const auto& color : colors_) mesh_.colors.push_back(decode(color));
@@ -119,14 +129,18 @@ class OffParser {
     bool has_point = false;
   };
 
+  std::string_view next_word() { return header_.is_one_line ? text_.word() : text_.word_in_line(); }
+
   // "x y z [nx ny nz] [r g b [a]] [s t]".
   void read_vertices() {
     places_.reserve(header_.n_vertices);
     for (std::uint64_t v = 0; v < header_.n_vertices; ++v) {
       start_line(text_);
       glm::dvec3 place;
-      for (int k = 0; k < 3; ++k) place[k] = text_.coordinate(text_.word_in_line(), "vertex", v);
+      for (int k = 0; k < 3; ++k) place[k] = text_.coordinate_or_nan(next_word(), "vertex", v);
+      if (std::isnan(place.x + place.y + place.z)) nowhere_lines_.push_back(text_.line());
       places_.push_back(place);
+      if (header_.is_one_line) continue;
       if (header_.magic.has_normals) read_normal(v);
       if (header_.magic.has_colors || header_.magic.has_texcoords) read_rest(v);
       text_.skip_line();
@@ -178,7 +192,7 @@ class OffParser {
 
   void read_faces() {
     const auto read_integer = [&](std::uint64_t face, std::int64_t lo, std::int64_t hi) {
-      return text_.integer(text_.word_in_line(), "face", face, lo, hi);
+      return text_.integer(next_word(), "face", face, lo, hi);
     };
     const auto n_vertices = static_cast<std::int64_t>(header_.n_vertices);
     for (std::uint64_t f = 0; f < header_.n_faces; ++f) {
@@ -186,16 +200,20 @@ class OffParser {
       for (std::int64_t left = read_integer(f, 0, 1 << 24); left > 0; --left)
         faces_.vertices.push_back(static_cast<std::uint32_t>(read_integer(f, 0, n_vertices - 1)));
       faces_.end_face();
+      if (header_.is_one_line) continue;
       n_colored_faces_ += !text_.word_in_line().empty();
       text_.skip_line();
     }
+    if (header_.is_one_line && !text_.at_end()) text_.fail("more stands behind the last face");
   }
 
   TextCursor text_;
+  std::string file_;
   Remarks* remarks_;
   OffHeader header_;
   TriMesh mesh_;
   std::vector<glm::dvec3> places_;
+  std::vector<std::int64_t> nowhere_lines_;  // of vertices without a position
   std::vector<Color> colors_;
   std::vector<glm::vec2> texcoords_;
   FaceList faces_;

@@ -44,34 +44,15 @@ bool is_float(const PlyDocument& ply, const char* property) {
   return ply.column("vertex", property).type() == PlyType::kFloat;
 }
 
-// A vertex that no face uses may be nowhere, as in scans that are a grid with holes: it goes where
-// the first one is.
 std::vector<glm::dvec3> read_places(const PlyDocument& ply, const FaceList& faces,
                                     Remarks* remarks) {
   std::vector<glm::dvec3> out(ply.element("vertex").count);
-  std::vector<bool> is_used, is_nowhere(out.size(), false);
-  const auto check = [&](std::size_t v, const char* name) {
-    if (is_used.empty()) {
-      is_used.assign(out.size(), faces.vertices.empty());
-      for (const std::uint32_t used : faces.vertices) is_used[used] = true;
-    }
-    if (is_used[v])
-      throw InputError(ply.file, "vertex " + std::to_string(v),
-                       std::string("property '") + name + "' is not a finite number");
-    is_nowhere[v] = true;
-  };
   for (int k = 0; k < 3; ++k) {
     const char* names[] = {"x", "y", "z"};
     const std::vector<double> values = ply.doubles("vertex", names[k]);
-    for (std::size_t v = 0; v < out.size(); ++v) {
-      if (!(std::abs(values[v]) <= std::numeric_limits<float>::max())) check(v, names[k]);
-      out[v][k] = values[v];
-    }
+    for (std::size_t v = 0; v < out.size(); ++v) out[v][k] = values[v];
   }
-  std::size_t n = 0;
-  for (std::size_t v = 0; v < out.size(); ++v)
-    if (is_nowhere[v]) out[v] = out[faces.vertices[0]], ++n;
-  add_remark(remarks, "vertices that no face uses, without a position", n);
+  mend_unused_places(out, faces.vertices, ply.file, remarks);
   return out;
 }
 

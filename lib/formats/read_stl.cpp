@@ -70,6 +70,7 @@ TriMesh parse_binary_stl(std::string_view bytes, const std::string& file, Remark
   ByteCursor cursor(bytes, file);
   cursor.take(kHeaderBytes);
   mesh.positions.reserve(3 * n);
+  std::size_t n_attributes = 0;
   for (std::size_t f = 0; f < n; ++f) {
     cursor.take(12);  // the normal, which follows from the positions and is often zero
     for (int corner = 0; corner < 3; ++corner) {
@@ -81,8 +82,10 @@ TriMesh parse_binary_stl(std::string_view bytes, const std::string& file, Remark
           throw InputError(file, "facet " + std::to_string(f), "a position is not finite");
       mesh.positions.push_back(p);
     }
-    cursor.take(2);
+    n_attributes += cursor.read<std::uint16_t>() != 0;
   }
+  add_remark(remarks, "facets with attributes (colours of VisCAM and Magics), passed over",
+             n_attributes);
   choose_offset_of({}, mesh, remarks);
   return mesh;
 }

@@ -123,6 +123,14 @@ double TextCursor::coordinate(std::string_view word, const char* what, std::uint
   return is_between_floats(value) ? std::nextafter(value, number(word, what, id)) : value;
 }
 
+double TextCursor::coordinate_or_nan(std::string_view word, const char* what,
+                                     std::uint64_t id) const {
+  double value = 0;
+  const bool is_nan =
+      !parse_finite(word, value) && parse_float_or_nan(word, value) && value != value;
+  return is_nan ? value : coordinate(word, what, id);
+}
+
 std::int64_t TextCursor::integer(std::string_view word, const char* what, std::uint64_t id,
                                  std::int64_t lo, std::int64_t hi) const {
   std::int64_t value;

@@ -51,6 +51,8 @@ class TextCursor {
   float number(std::string_view word, const char* what, std::uint64_t id) const;
   /// Within what a float holds; rounded to float it is the float next to the word.
   double coordinate(std::string_view word, const char* what, std::uint64_t id) const;
+  /// The same, or NaN (parse_float_or_nan).
+  double coordinate_or_nan(std::string_view word, const char* what, std::uint64_t id) const;
   std::int64_t integer(std::string_view word, const char* what, std::uint64_t id, std::int64_t lo,
                        std::int64_t hi) const;
 

@@ -251,10 +251,13 @@ std::string describe_not_finite(const ChartFindings& f) {
 }
 
 std::string describe_repeating(const ChartFindings& f) {
+  const glm::dvec2 size = f.repeating.hi - f.repeating.lo;
+  const char* what = std::max(size.x, size.y) > 1 ? "its texels show several places"
+                                                  : "it crosses a side of the picture";
   return number_of(f.n_repeating, "chart wants", "charts want") +
          " a picture that repeats, the first at " + triangle(f.first_repeating) + " (" +
-         format_range(f.repeating) +
-         "): its texels show several places; give each place one of its own in [0, 1]";
+         format_range(f.repeating) + "): " + what +
+         "; give each place a texel of its own in [0, 1]";
 }
 
 std::string describe_elsewhere(const ChartFindings& f) {

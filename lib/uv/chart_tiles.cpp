@@ -10,6 +10,8 @@ namespace {
 
 // How far a chart may reach out of the picture and be taken for careless, over the picture.
 constexpr double kOvershoot = 0.1;
+// How much wider than the picture one that fills it may be: some texels, which exporters round to.
+constexpr double kWider = 0.01;
 
 bool is_within(const UvRange& range, double slack) {
   return std::min(range.lo.x, range.lo.y) >= -slack &&
@@ -24,7 +26,7 @@ UvRange moved(const UvRange& range, const glm::dvec2& tile) {
 
 bool is_repeating(const UvRange& range) {
   const glm::dvec2 size = range.hi - range.lo;
-  return std::max(size.x, size.y) > 1 + 2 * kUvRounding || !is_within(range, kOvershoot) ||
+  return std::max(size.x, size.y) > 1 + kWider || !is_within(range, kOvershoot) ||
          std::min(range.hi.x, range.hi.y) < -kUvRounding ||
          std::max(range.lo.x, range.lo.y) > 1 + kUvRounding;
 }

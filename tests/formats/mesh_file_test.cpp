@@ -246,7 +246,7 @@ TEST(Off, AbsurdCountsAllocateNothing) {
 
 TEST(Off, BadNumbersNameTheirPlace) {
   EXPECT_INPUT_ERROR(parse_off(replaced(cube_off(), "1 1 0\n", "1 nan 0\n"), "m.off"),
-                     "m.off: line 5: vertex 2: 'nan' is not a finite number");
+                     "m.off: line 5: vertex 2: a coordinate is not a finite number");
   EXPECT_INPUT_ERROR(parse_off(replaced(cube_off(), "1 1 0\n", "1 1e99 0\n"), "m.off"), "line 5");
   EXPECT_INPUT_ERROR(parse_off(replaced(cube_off(), "4 4 5 6 7", "4 4 5 6 8"), "m.off"),
                      "line 12: face 1: '8' is not within 0 to 7");

@@ -46,7 +46,7 @@ TEST(Obj, RefusesWhatOthersReadAsZero) {
     SCOPED_TRACE(text);
     EXPECT_INPUT_ERROR(parse_obj(text, "m.obj"), part);
   };
-  bad("v nan 0 0\n", "m.obj: line 1: vertex 0: 'nan'");
+  bad("v nan 0 0\n", "m.obj: line 1: vertex 0: a coordinate is not a finite number");
   bad("v 1 2\n", "vertex 0: a number is missing");
   bad("v x y z\n", "vertex 0: 'x'");
   bad("v 0 0 1e400\n", "vertex 0");

@@ -128,6 +128,15 @@ TEST(OffVariants, HeadersTouchTheirCounts) {
     EXPECT_INPUT_ERROR(parse_off(head + body, "m"), "is not an OFF file");
 }
 
+TEST(OffVariants, AllOnOneLine) {
+  std::string text = cube_off();
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  expect_cube(parse_off(text, "m.off"));
+  EXPECT_INPUT_ERROR(parse_off(text + "3 0 1 2", "m.off"), "more stands behind the last face");
+  EXPECT_INPUT_ERROR(parse_off("C" + text, "m.off"), "three coordinates alone");
+  EXPECT_INPUT_ERROR(parse_off(text.substr(0, text.size() - 3), "m.off"), "too early");
+}
+
 TEST(OffVariants, TextureCoordinatesStandLast) {
   const TriMesh mesh = parse_off(
       "STCOFF 3 1 0\n0 0 0 255 0 0 255 0 0\n1 0 0 0 255 0 1 0\n0 1 0 0 0 255 0 1\n3 0 1 2\n", "m");
@@ -301,7 +310,7 @@ TEST(PlyVariants, NormalsThatAreNoNumbers) {
   EXPECT_EQ(count_of(remarks, "vertices without a normal: computed"), 2u);
   EXPECT_INPUT_ERROR(
       read_bytes("m.ply", kHead + kFaces + "0 0 0\n1 nan 0\n1 1 0\n0 1 0\n" + kFaceRows),
-      "vertex 1: property 'y' is not a finite number");
+      "vertex 1: a coordinate is not a finite number");
 }
 
 // White, as where there are none, and counted; what is infinite is as bright as can be.
@@ -394,8 +403,38 @@ TEST(PlyVariants, VerticesOfNoFaceMayBeNowhere) {
     EXPECT_EQ(mesh.positions[0], glm::vec3(1, 0, 0));
     EXPECT_EQ(mesh.positions[3], glm::vec3(1, 1, 0));
     EXPECT_INPUT_ERROR(read_bytes("m.ply", file("3 0 2 3\n")),
-                       "vertex 0: property 'x' is not a finite");
+                       "vertex 0: a coordinate is not a finite");
   }
+}
+
+TEST(ObjAndOffVariants, VerticesOfNoFaceMayBeNowhere) {
+  const std::string obj = "v nan nan nan\nv 1 0 0\nv 2 0 0\nv 1 1 0\nv 0 -inf 0\nf ";
+  const std::string off = "OFF 5 1 0\nnan nan nan\n1 0 0\n2 0 0\n1 1 0\n0 inf 0\n3 ";
+  for (const Read& read :
+       {read_bytes("m.obj", obj + "2 3 4\n"), read_bytes("m.off", off + "1 2 3\n")}) {
+    EXPECT_EQ(count_of(read.remarks, "vertices that no face uses, without a position"), 2u);
+    EXPECT_EQ(read.mesh.positions[4], glm::vec3(1, 0, 0));
+  }
+  EXPECT_INPUT_ERROR(read_bytes("m.obj", obj + "2 3 5\n"), "line 5: vertex 4: a coordinate is not");
+  EXPECT_INPUT_ERROR(read_bytes("m.off", off + "0 2 3\n"), "line 2: vertex 0: a coordinate is not");
+}
+
+TEST(ObjVariants, ColoursOfZBrushAreSaid) {
+  const auto [mesh, remarks] =
+      read_bytes("m.obj", "#MRGB ffff0000\n" + cube_obj() + "# not #MRGB \n#MRGB ff00ff00\n");
+  EXPECT_EQ(count_of(remarks, "comments '#MRGB' (colours of ZBrush), passed over"), 2u);
+}
+
+TEST(PlyVariants, NamesInCapitals) {
+  const std::string capitals_of_it =
+      replaced(replaced(replaced(cube_ply(), "float x", "float X"), "float y", "float Y"),
+               "float z", "float Z");
+  expect_cube(read_bytes("m.ply", capitals_of_it).mesh);
+  const std::string both =
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float X\n"
+      "property float x\nproperty float y\nproperty float z\nelement face 1\n"
+      "property list uchar int vertex_indices\nend_header\n9 0 0 0\n9 1 0 0\n9 0 1 0\n3 0 1 2\n";
+  EXPECT_EQ(read_bytes("m.ply", both).mesh.positions[1], glm::vec3(1, 0, 0));
 }
 
 // Exporters leave blanks or a signature behind the facets.
@@ -407,6 +446,12 @@ TEST(StlVariants, BytesAfterTheLastFacetAreCounted) {
       bytes.append(reinterpret_cast<const char*>(facet), sizeof facet).append(2, '\0');
     }
     EXPECT_EQ(read_bytes("m.stl", bytes).mesh.triangles.size(), 2u);
+    EXPECT_TRUE(read_bytes("m.stl", bytes).remarks.empty());
+    std::string coloured = bytes;
+    coloured[84 + 48] = '\x1f';
+    EXPECT_EQ(count_of(read_bytes("m.stl", coloured).remarks,
+                       "facets with attributes (colours of VisCAM and Magics), passed over"),
+              1u);
     const auto [mesh, remarks] = read_bytes("m.stl", bytes + "\r\n");
     EXPECT_EQ(mesh.triangles.size(), 2u);
     EXPECT_EQ(count_of(remarks, "bytes after the last facet, passed over"), 2u);
