@@ -130,6 +130,16 @@ float AttributeCost::cost(const WedgeTable& table, std::uint32_t u, std::uint32_
   return static_cast<float>(std::sqrt(squares + square_of_cost(value, weight)));
 }
 
+bool AttributeCost::has_gradient(const WedgeTable& table, std::uint32_t u, std::uint32_t v) const {
+  const auto changes = [&](std::size_t i) {
+    const Symmetric3& a = quadrics_[i].a;
+    return a[0] + a[1] + a[2] > 0;
+  };
+  for (const auto& [from, to] : table.chart_pairs())
+    if (changes(slot(table, from, u)) || changes(slot(table, to, v))) return true;
+  return false;
+}
+
 void AttributeCost::merge(const WedgeTable& table, std::uint32_t u, std::uint32_t v) {
   if (!borders_.empty()) borders_[v].add(borders_[u]);
   if (quadrics_.empty()) return;

@@ -52,6 +52,8 @@ class AttributeCost {
   /// No border, and one colour.
   bool is_empty() const { return borders_.empty() && quadrics_.empty(); }
   bool has_colours() const { return !quadrics_.empty(); }
+  /// Whether colours change beside u or v, as the table has matched them last.
+  bool has_gradient(const WedgeTable& table, std::uint32_t u, std::uint32_t v) const;
   std::size_t n_border_edges() const { return n_border_edges_; }
 
   /// Of u and v at the position, as the table has matched them last (not looked at without

@@ -79,7 +79,29 @@ struct RecordedMetric {
     m.cost_at_least(u, v);
   }
   { return metric.cost_at_least(u, v); }
+  /// Where colours differ a free position may move their border, which an end does not: the
+  /// cheapest of both ends and the free one is taken.
   Way find_way(std::uint32_t u, std::uint32_t v) requires kHasPlacement {
+    const Way way = find_way_of_charts(u, v);
+    if (way != Way::free || !attributes || !attributes->has_colours() ||
+        !recorder.match(mesh, u, v) || !attributes->has_gradient(recorder.table(), u, v))
+      return way;
+    return u > v || is_end_better(u, v) ? Way::to_end : Way::free;
+  }
+  bool is_end_better(std::uint32_t u, std::uint32_t v) requires kHasPlacement {
+    const auto total = [&](float cost, const glm::vec3& position) {
+      return std::hypot(cost, attributes->cost(recorder.table(), u, v, position));
+    };
+    const glm::vec3 end = mesh.position(v), free = metric.optimal_position(u, v);
+    const float free_cost = metric.cost(u, v);
+    float end_cost = 0;
+    if constexpr (requires { metric.cost_at(u, v, end); })
+      end_cost = metric.cost_at(u, v, end);
+    else
+      end_cost = metric.cost_at_end(u, v);
+    return !(total(free_cost, free) < total(end_cost, end));
+  }
+  Way find_way_of_charts(std::uint32_t u, std::uint32_t v) requires kHasPlacement {
     if (must_stay(u)) return Way::none;
     if (!recorder.table().has_charts()) return goes_to_end(v) ? Way::to_end : Way::free;
     if (!recorder.match(mesh, u, v)) return Way::none;
