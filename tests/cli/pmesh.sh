@@ -193,6 +193,11 @@ for metric in qem5 aps mapping; do
   fault 1 "ball.off: has no texture coordinates" "$pmesh" build ball.off --metric $metric -o x.pm
 done
 fault 2 "placement" "$pmesh" build ball.off --metric lt --placement half -o x.pm
+# Half of the faces without texture coordinates.
+awk '/^f / && ++n % 2 == 0 { gsub("/[0-9/]*", "") } { print }' relief.obj >half.obj
+expect 0 "$pmesh" build half.obj --metric aps -o x.pm
+grep -q "faces without area in the texture, by which metric aps measures" "$log/err" ||
+  fail "aps: faces without texture coordinates are not said: $(cat "$log/err")"
 fault 2 "placement" "$pmesh" build relief.obj --metric aps --placement full -o x.pm
 fault 2 "mapping with --placement full" \
   "$pmesh" build relief.obj --metric mapping --error incremental --placement full -o x.pm

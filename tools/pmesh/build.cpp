@@ -81,9 +81,24 @@ BuildOptions set_lengths(const PmeshArguments& a, const TriMesh& mesh) {
   return options;
 }
 
+std::size_t count_faces_without_texture(const TriMesh& mesh) {
+  std::size_t n = 0;
+  for (std::size_t c = 0; c + 2 < mesh.texcoords.size(); c += 3) {
+    const glm::dvec2 a(mesh.texcoords[c]), ab = glm::dvec2(mesh.texcoords[c + 1]) - a,
+                                           ac = glm::dvec2(mesh.texcoords[c + 2]) - a;
+    n += ab.x * ac.y == ab.y * ac.x;
+  }
+  return n;
+}
+
 // What was done to the mesh, or holds it back, without being asked for.
-Remarks remark_on(const BuildResult& result) {
+Remarks remark_on(const TriMesh& mesh, const BuildOptions& options, const BuildResult& result) {
   Remarks out;
+  if (options.metric == MetricKind::aps)
+    add_remark(&out,
+               "faces without area in the texture, by which metric aps measures: they stay, and "
+               "others go in their place (--metric mapping measures them)",
+               count_faces_without_texture(mesh));
   char text[160];
   std::snprintf(text, sizeof text,
                 "vertices welded to others up to %.3g away (--weld 0 leaves them apart)",
@@ -157,7 +172,7 @@ int build(const Tool& tool, const PmeshArguments& a) {
   if (a.flip_v) said["flip_v"] = true;
   result.record.made_by = make_provenance(tool, said, {{"model", hash}}).dump();
   write_pm(tool.common().output, result.record);
-  tool.remark(a.model, remark_on(result));
+  tool.remark(a.model, remark_on(mesh, options, result));
   const CollapseCounts& counts = result.counts;
   const bool is_short = a.stops_at_faces && n_base > options.target_faces;
   if (!is_short)
