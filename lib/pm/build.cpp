@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "base/error.h"
+#include "mesh/backs.h"
 #include "pm/border_edges.h"
 #include "pm/recorded_metric.h"
 #include "pm/recorder.h"
@@ -232,6 +233,14 @@ float round_up(double x) {
   return out < x ? std::nextafter(out, std::numeric_limits<float>::infinity()) : out;
 }
 
+// Sets recut to the mesh with its backs cut as its fronts are, where that is another.
+std::size_t cut_backs(const TriMesh& mesh, const WedgeMesh& wedges, TriMesh& recut) {
+  const std::size_t n = mesh.positions.size();
+  if (!may_have_backs(wedges.faces.size(), n - wedges.n_welded)) return 0;
+  recut = mesh;
+  return cut_backs_alike(recut, std::span(wedges.wedge_vertex).first(n));
+}
+
 void check_options(const TriMesh& mesh, const BuildOptions& options) {
   if (options.charts_apart_px > 0 && mesh.texcoords.empty())
     throw InputError(options.name, "",
@@ -276,14 +285,19 @@ TextureNeeds texture_needs(const BuildOptions& options) {
   return {measures_texture && !does_without, measures_texture || options.refuse_folds};
 }
 
-BuildResult build_progressive_mesh(const TriMesh& mesh, const BuildOptions& options,
+BuildResult build_progressive_mesh(const TriMesh& input, const BuildOptions& options,
                                    const Progress& progress) {
-  check_options(mesh, options);
-  const WeldOptions weld = weld_options(mesh, options);
-  WedgeMesh wedges = make_wedges(mesh, {.along_curve = true,
-                                        .weld = weld,
-                                        .materials = !options.ignore_materials,
-                                        .colours = !options.ignore_colours});
+  check_options(input, options);
+  const WeldOptions weld = weld_options(input, options);
+  const WedgeOptions wedge_options{.along_curve = true,
+                                   .weld = weld,
+                                   .materials = !options.ignore_materials,
+                                   .colours = !options.ignore_colours};
+  WedgeMesh wedges = make_wedges(input, wedge_options);
+  TriMesh recut;
+  const std::size_t n_recut = cut_backs(input, wedges, recut);
+  if (n_recut > 0) wedges = make_wedges(recut, wedge_options);
+  const TriMesh& mesh = n_recut > 0 ? recut : input;
   if (wedges.faces.empty())
     throw InputError(options.name, "", "has no triangle with three different corners");
   const Units units{unit_scale(wedges.positions), round_up(wedges.apart.gap)};
@@ -293,6 +307,7 @@ BuildResult build_progressive_mesh(const TriMesh& mesh, const BuildOptions& opti
   CollapseMesh work(wedges.positions, triangles, copies);
   Recorder recorder(wedges, mesh, units.scale, options.placement == Placement::full);
   BuildResult result;
+  result.n_recut = n_recut;
   const std::size_t n_vertices = wedges.positions.size();
   VanishOptions vanish{piece_cost(options), {}};
   const std::vector<Triangle> sheets = without_copies(triangles, copies);

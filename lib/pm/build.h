@@ -86,6 +86,8 @@ struct BuildResult {
   BorderWeld welded_apart;    ///< vertices not at the position of the one that they are welded to
   PieceCounts pieces;         ///< of the input, welded
   std::size_t n_locked = 0;   ///< vertices
+  std::size_t n_recut =
+      0;  ///< triangles of backs, cut along their fronts' diagonals (mesh/backs.h)
   std::size_t n_region_edges = 0;  ///< where materials or colours meet
   std::size_t n_charts = 0;        ///< joined charts of the texture (ChartLink::corner)
 };
@@ -93,7 +95,7 @@ struct BuildResult {
 /// Throws InputError when the metric needs what the mesh has not, UsageError for a metric that has
 /// no such placement. Costs are in the mesh's units. Memory: with the mesh and the record 250 to
 /// 290 bytes a face at most, 400 for qem5.
-BuildResult build_progressive_mesh(const TriMesh& mesh, const BuildOptions& options,
+BuildResult build_progressive_mesh(const TriMesh& input, const BuildOptions& options,
                                    const Progress& progress = {});
 
 }  // namespace viewcell

@@ -6,6 +6,7 @@
 #include "base/file.h"
 #include "base/parallel.h"
 #include "formats/mesh_file.h"
+#include "mesh/backs.h"
 #include "mesh/used_vertices.h"
 #include "mesh/weld.h"
 #include "scene/scene.h"
@@ -215,6 +216,7 @@ FileRemarks load_mesh(const std::filesystem::path& scene_file, const std::string
   const BorderWeld closed = close_cracks(mesh.mesh);
   add_remark(&source.remarks, "vertices moved onto others next to them, so that cracks close",
              closed.n_welded);
+  add_remark(&source.remarks, kBacksRecut, cut_backs_alike(mesh.mesh));
   SplitMesh split = split_corners(std::move(mesh.mesh));
   mesh.mesh = std::move(split.mesh);
   mesh.weld = std::move(split.weld);

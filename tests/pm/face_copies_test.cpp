@@ -44,6 +44,30 @@ TriMesh make_two_sided(TriMesh mesh, std::size_t n_doubled, float shift = 0) {
   return mesh;
 }
 
+// Quads cut from their first corner on, from either side: the back's diagonals are the others.
+TEST(FaceCopies, SheetsWhoseBacksAreCutTheOtherWay) {
+  constexpr std::uint32_t n = 12;
+  TriMesh sheet = make_flat_grid(n);
+  for (std::uint32_t y = 0; y < n; ++y)
+    for (std::uint32_t x = 0; x < n; ++x) {
+      const std::uint32_t a = y * (n + 1) + x, b = a + 1, c = a + n + 2, d = a + n + 1;
+      sheet.triangles.insert(sheet.triangles.end(), {{d, c, b}, {d, b, a}});
+    }
+  for (const Way& way : kWays) {
+    if (texture_needs(options_of(way)).coordinates) continue;
+    SCOPED_TRACE(testing::Message() << metric_name(way.metric) << placement_name(way.placement));
+    const BuildResult built = build_progressive_mesh(sheet, options_of(way));
+    EXPECT_EQ(built.n_recut, 2 * n * n);
+    ProgressiveMesh pm(built.record);
+    pm.set_faces(40);
+    ASSERT_LE(pm.n_faces(), 40u);
+    double area = 0;
+    const TriMesh left = pm.extract();
+    for (const Triangle& t : left.triangles) area += 0.5 * glm::length(area_normal(left, t));
+    EXPECT_NEAR(area, 2 * n * n, 1e-3);  // both sides, up to their border
+  }
+}
+
 TriMesh without_texture(TriMesh mesh) {
   mesh.texcoords.clear();
   return mesh;

@@ -8,6 +8,7 @@
 #include "common/provenance.h"
 #include "common/stopwatch.h"
 #include "gl/context.h"
+#include "mesh/backs.h"
 #include "meshshot/arguments.h"
 #include "meshshot/textures.h"
 #include "report/table.h"
@@ -52,6 +53,9 @@ int run(const Tool& tool, MeshshotArguments& o) {
   Stopwatch watch;
   check_shot_folder(o.shots.folder, o.shots.n_views);
   TriMesh mesh = read_mesh_input(tool, o.mesh_file, &o.mesh_hash);
+  Remarks recut;
+  add_remark(&recut, kBacksRecut, cut_backs_alike(mesh));
+  tool.remark(o.mesh_file, recut);
   const MeshFrame frame = choose_frame(tool, o, mesh);
   const ShotTextures textures = read_textures(tool, o, mesh);
   const double read_s = watch.lap_s();

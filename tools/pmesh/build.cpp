@@ -8,6 +8,7 @@
 #include "common/mesh_input.h"
 #include "common/provenance.h"
 #include "common/stopwatch.h"
+#include "mesh/backs.h"
 #include "mesh/used_vertices.h"
 #include "pm/pm_file.h"
 #include "pmesh/commands.h"
@@ -99,6 +100,7 @@ Remarks remark_on(const TriMesh& mesh, const BuildOptions& options, const BuildR
                "faces without area in the texture, by which metric aps measures: they stay, and "
                "others go in their place (--metric mapping measures them)",
                count_faces_without_texture(mesh));
+  add_remark(&out, kBacksRecut, result.n_recut);
   char text[160];
   std::snprintf(text, sizeof text,
                 "vertices welded to others up to %.3g away (--weld 0 leaves them apart)",
