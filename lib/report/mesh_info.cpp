@@ -96,7 +96,8 @@ void suggest_scene(MeshInfo& info) {
   if (info.format == "OBJ" || info.format == "GLB" || info.format == "glTF") info.up = "y";
   const glm::dvec3 size = info.box.size();
   const double height = info.up == "y" ? size.y : size.z;
-  const double used = height > 0 ? height : std::max({size.x, size.y, size.z});
+  // What is flat or wide is to be no wider than twice as much.
+  const double used = std::max(height, std::max({size.x, size.y, size.z}) / 2);
   const bool fits = used >= kSceneHeight / 2 && used <= kSceneHeight * 2;
   if (used > 0 && !fits) info.scale = round_to_two_digits(kSceneHeight / used);
 }

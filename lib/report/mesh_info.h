@@ -39,7 +39,8 @@ struct MeshInfo {
   std::vector<MaterialUse> materials;
   std::vector<ListedTexture> textures;
   Remarks remarks;  ///< of the reader: what it left out or did
-  /// What scene.json would say to have it some 40 units high, as the demo's statues are.
+  /// What scene.json would say to have it some 40 units high, as the demo's statues are, or
+  /// some 80 wide where it is wider.
   std::string up = "z";
   double scale = 1;
 };

@@ -141,7 +141,7 @@ std::string describe_scene(const MeshInfo& info) {
   const bool is_habit = info.format == "OBJ" || info.format == "GLB" || info.format == "glTF";
   return "\"up\": \"" + info.up + "\", \"scale\": " + info_number(info.scale) +
          (info.scale == 1 ? ": its size suits cells of some 50 units"
-                          : ": some 40 units high, as suits cells of some 50 units") +
+                          : ": then its size suits cells of some 50 units") +
          (is_habit ? "; up as is usual in " + info.format : "; which axis is up no such file says");
 }
 
@@ -244,7 +244,7 @@ std::string format_mesh_info(const MeshInfo& info) {
   lines.add("texture", describe_texcoords(info));
   lines.add("materials", describe_materials(info));
   lines.add("pictures", describe_textures(info));
-  if (!info.remarks.empty()) lines.add("left out", describe_remarks(info));
+  if (!info.remarks.empty()) lines.add("remarks", describe_remarks(info));
   lines.add("for a scene", describe_scene(info));
   return lines.text();
 }

@@ -1,5 +1,6 @@
 #include "meshshot/textures.h"
 
+#include <algorithm>
 #include <map>
 
 #include "base/error.h"
@@ -92,11 +93,32 @@ bool has_plain_faces(const TriMesh& mesh, const MaterialPictures& model) {
   return has_plain;
 }
 
+// What of a model's materials is not drawn beside their pictures.
+Remarks remark_looks(const MaterialPictures& model) {
+  Remarks out = model.remarks;
+  for (const PicturedMaterial& m : model.materials) {
+    if (m.color < 0) continue;
+    if (glm::dvec3(m.look.base_color_factor) != glm::dvec3(1))
+      add_remark(&out, "colours that multiply a material's picture, not drawn");
+    if (m.look.alpha_mode != "OPAQUE")
+      add_remark(&out, "materials with alpha (" + m.look.alpha_mode + "), drawn opaque");
+  }
+  return out;
+}
+
+void remark_colours(const Tool& tool, const MeshshotArguments& o, const TriMesh& mesh) {
+  const auto differs = [&](const glm::vec3& c) { return c != mesh.colors[0]; };
+  if (o.texture.empty() || std::none_of(mesh.colors.begin(), mesh.colors.end(), differs)) return;
+  tool.remark(o.mesh_file,
+              {{"colours of vertices, not drawn beside a texture", mesh.colors.size()}});
+}
+
 // True where the texture is a model whose materials have several pictures, or some of them none.
 bool read_several(const Tool& tool, MeshshotArguments& o, TriMesh& mesh, ShotTextures& out) {
   const bool has_slot = texture_file(o.texture) != std::filesystem::path(o.texture);
   if (has_slot || !has_material_pictures(o.texture)) return false;
   const MaterialPictures model = read_material_pictures(o.texture);
+  tool.remark(o.texture, remark_looks(model));
   const std::size_t n = count_colors(model);
   if (n == 0 || (n == 1 && !has_plain_faces(mesh, model))) return false;
   if (!o.map_file.empty())
@@ -104,7 +126,6 @@ bool read_several(const Tool& tool, MeshshotArguments& o, TriMesh& mesh, ShotTex
                      "its materials have several pictures, or some none; an indexing map is for "
                      "one on all faces");
   o.texture_hash = model.hash;
-  tool.remark(o.texture, model.remarks);
   out.runs = make_runs(tool, o, model, mesh);
   return true;
 }
@@ -118,6 +139,7 @@ ShotTextures read_textures(const Tool& tool, MeshshotArguments& o, TriMesh& mesh
     throw InputError(o.mesh_file, "",
                      std::string("has no texture coordinates, which --") +
                          (o.texture.empty() ? "normal-map" : "texture") + " needs");
+  remark_colours(tool, o, mesh);
   if (!o.texture.empty() && !read_several(tool, o, mesh, out))
     out.color = read_texture_input(tool, o.texture, o.max_pixels, &o.texture_hash);
   if (!o.normal_map.empty())

@@ -146,11 +146,12 @@ void remark_charts(const Tool& tool, const PmeshArguments& a, const TriMesh& mes
   if (n_charts < 2 || (2 * by_chart <= all && n_base > kFewFaces * n_charts)) return;
   const char* how =
       texture_needs(a.build).coordinates ? "--metric qem3 --no-texture" : "--no-texture";
-  tool.remark(a.model,
-              {{std::string("charts of its texture, whose borders hold collapses back: ") + how +
-                    " goes on across them, and texadapt --engine rebake --onto makes a "
-                    "texture for what pmesh extract takes out of that",
-                n_charts}});
+  tool.remark(
+      a.model,
+      {{std::string("charts of its texture, whose borders hold collapses back: ") + how +
+            " goes on across them, and, of one picture, texadapt TEXTURED.pm --engine rebake "
+            "--onto makes a texture for what pmesh extract takes out of that",
+        n_charts}});
 }
 
 }  // namespace

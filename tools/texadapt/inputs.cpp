@@ -163,7 +163,9 @@ TexadaptInputs read_inputs(const Tool& tool, TexadaptArguments& a) {
   TexadaptInputs in;
   in.record = read_pm(a.pm);
   if (in.record.texcoords.empty())
-    throw InputError(a.pm, "", "has no texture coordinates, so no texture can follow it");
+    throw InputError(a.pm, "",
+                     std::string("has no texture coordinates, so no texture can follow it") +
+                         (a.onto.empty() ? "" : ": --onto takes a .pm that has them"));
   in.shown = read_pictures(tool, a, in.record);
   check_several(a, in);
   if (!a.onto.empty()) keep_one_look(in.shown);

@@ -149,7 +149,13 @@ ShownPictures find_pictures(const Tool& tool, const TexadaptArguments& a,
   if (has_slot || !has_material_pictures(a.texture)) return read_one(tool, a);
   const MaterialPictures model = read_material_pictures(a.texture);
   ShownPictures out = PictureChooser(tool, a, record, model).choose();
-  if (out.pictures.empty()) return read_one(tool, a);
+  if (out.pictures.empty()) {
+    out = read_one(tool, a);
+    add_remark(&out.remarks,
+               "materials of " + a.pm + " that are none of this model's, which get its one picture",
+               record.attributes.material_names.size());
+    return out;
+  }
   if (a.format == LevelFormat::glb) out.remarks = remark_left_out(a, model);
   return out;
 }
