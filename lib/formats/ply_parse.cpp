@@ -33,6 +33,12 @@ std::uint64_t type_bytes(PlyType type) {
   return kTypeBytes[static_cast<std::size_t>(type)];
 }
 
+std::string in_small_letters(std::string_view text) {
+  std::string out(text);
+  for (char& c : out) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return out;
+}
+
 // ---- the header ----
 
 class HeaderParser {
@@ -47,7 +53,11 @@ class HeaderParser {
     for (std::string_view line = next_line(); line != "end_header"; line = next_line())
       parse_line(line);
     if (!has_format_) fail("the header has no line 'format'");
-    for (PlyElement& element : document_.elements) make_names_small(element);
+    for (PlyElement& element : document_.elements) {
+      const std::string name = in_small_letters(element.name);
+      if (!document_.find(name)) element.name = name;
+      make_names_small(element);
+    }
     header_.n_bytes = at_;
     return header_;
   }
@@ -141,8 +151,7 @@ class HeaderParser {
   // "X" is "x", where there is no other.
   static void make_names_small(PlyElement& element) {
     for (PlyColumn& column : element.columns) {
-      std::string name = column.name;
-      for (char& c : name) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+      const std::string name = in_small_letters(column.name);
       if (!element.find(name)) column.name = name;
     }
   }
@@ -151,8 +160,9 @@ class HeaderParser {
     static constexpr std::string_view kNames[][2] = {
         {"char", "int8"}, {"uchar", "uint8"}, {"short", "int16"},   {"ushort", "uint16"},
         {"int", "int32"}, {"uint", "uint32"}, {"float", "float32"}, {"double", "float64"}};
+    const std::string small = in_small_letters(word);
     for (std::size_t i = 0; i < std::size(kNames); ++i)
-      if (word == kNames[i][0] || word == kNames[i][1]) return static_cast<PlyType>(i);
+      if (small == kNames[i][0] || small == kNames[i][1]) return static_cast<PlyType>(i);
     fail("unknown type '" + std::string(word.substr(0, 40)) + "'");
   }
 

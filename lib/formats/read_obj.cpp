@@ -107,7 +107,7 @@ class ObjParser {
     ++unknown_[is_named ? keyword : "others"];
   }
 
-  // "v x y z [w] [r g b]".
+  // "v x y z [w] [r g b]", or with seven numbers "v x y z r g b a" (finish_colors).
   void parse_vertex() {
     const std::size_t vertex = places_.size();
     glm::dvec3 place;
@@ -123,6 +123,10 @@ class ObjParser {
     mesh_.colors.resize(vertex, glm::vec3(-1));
     mesh_.colors.emplace_back(more[n - 3], more[n - 2], more[n - 1]);
     for (std::size_t k = n - 3; k < n; ++k) most_color_ = std::max(most_color_, more[k]);
+    if (n < 4) return;
+    firsts_.emplace_back(vertex, more[0]);
+    n_first_one_ += more[0] == 1;
+    n_last_one_ += more[3] == 1 || more[3] == 255;
   }
 
   // One that is no number is 0.
@@ -215,9 +219,24 @@ class ObjParser {
 
   // ---- what is left when all is read ----
 
+  // Of seven numbers the fourth is a weight, unless it is none and the last is alpha: full
+  // everywhere.
+  void move_colors_before_alpha() {
+    const bool is_alpha = n_last_one_ == firsts_.size() && n_first_one_ < firsts_.size();
+    if (!is_alpha) return;
+    for (const auto& [vertex, red] : firsts_) {
+      glm::vec3& color = mesh_.colors[vertex];
+      color = {red, color.r, color.g};
+    }
+    most_color_ = 0;
+    for (const glm::vec3& c : mesh_.colors) most_color_ = std::max({most_color_, c.r, c.g, c.b});
+    add_remark(remarks_, "vertices of seven numbers, taken as x y z r g b a", firsts_.size());
+  }
+
   // Vertices without a colour are white.
   void finish_colors() {
     if (mesh_.colors.empty()) return;
+    move_colors_before_alpha();
     mesh_.colors.resize(mesh_.positions.size(), glm::vec3(-1));
     const float full = full_color(most_color_);
     for (glm::vec3& color : mesh_.colors) {
@@ -279,7 +298,9 @@ class ObjParser {
   Remarks* remarks_;
   TriMesh mesh_;
   std::vector<glm::dvec3> places_;
-  std::vector<std::int64_t> nowhere_lines_;  // of vertices without a position
+  std::vector<std::pair<std::size_t, float>> firsts_;  // of vertices of seven numbers the fourth
+  std::size_t n_first_one_ = 0, n_last_one_ = 0;       // of them: whose fourth, whose last is full
+  std::vector<std::int64_t> nowhere_lines_;            // of vertices without a position
   std::vector<glm::vec2> texcoords_;
   std::vector<glm::vec3> normals_;
   ObjElements positions_of_{"vertex"}, texcoords_of_{"texture coordinate"}, normals_of_{"normal"};

@@ -49,7 +49,7 @@ OffMagic parse_magic(std::string_view word) {
 struct OffHeader {
   OffMagic magic;
   std::uint64_t n_vertices = 0, n_faces = 0;
-  bool is_one_line = false;  // more than counts stands on their line: lines mean nothing
+  bool is_one_line = false;  // lines mean nothing: there are fewer than vertices and faces
 };
 
 std::uint64_t parse_count(std::string_view word, const char* what, const TextCursor& text) {
@@ -57,6 +57,13 @@ std::uint64_t parse_count(std::string_view word, const char* what, const TextCur
   if (!parse_integer(word, count) || count < 0)
     text.fail(std::string("expected the number of ") + what);
   return static_cast<std::uint64_t>(count);
+}
+
+// Lines with a word that are left, up to so many.
+std::uint64_t count_lines(TextCursor text, std::uint64_t most) {
+  std::uint64_t n = 0;
+  for (; n < most && !text.at_end(); text.skip_line()) ++n;
+  return n;
 }
 
 // The counts may stand on the magic's line or touch it, and the magic may be left out.
@@ -76,11 +83,12 @@ OffHeader parse_header(TextCursor& text) {
   text.word_in_line();  // the number of edges, which many writers leave out or get wrong
   const TextCursor behind = text;
   header.is_one_line = !text.word_in_line().empty();
-  if (header.is_one_line) text = behind;
-  if (header.is_one_line &&
-      (header.magic.has_colors || header.magic.has_normals || header.magic.has_texcoords))
-    text.fail("without lines, vertices are read that are three coordinates alone");
-  if (!header.is_one_line) text.skip_line();
+  if (header.is_one_line)
+    text = behind;
+  else
+    text.skip_line();
+  const std::uint64_t n_rows = header.n_vertices + header.n_faces;
+  header.is_one_line = header.is_one_line || count_lines(text, n_rows) < n_rows;
   return header;
 }
 
@@ -105,6 +113,9 @@ class OffParser {
   OffParser(std::string_view bytes, const std::string& file, Remarks* remarks)
       : text_(bytes, file), file_(file), remarks_(remarks), header_(parse_header(text_)) {
     check_counts(header_, text_);
+    const OffMagic& magic = header_.magic;
+    if (header_.is_one_line && (magic.has_colors || magic.has_normals || magic.has_texcoords))
+      text_.fail("has fewer lines than vertices and faces: then vertices are three coordinates");
   }
 
   TriMesh parse() {
@@ -119,6 +130,8 @@ class OffParser {
         for (const std::uint32_t v : t) mesh_.texcoords.push_back(texcoords_[v]);
     add_remark(remarks_, "faces with colours of their own, which are passed over",
                n_colored_faces_);
+    add_remark(remarks_, "vertices with more numbers than the file's first word says, passed over",
+               n_longer_);
     return std::move(mesh_);
   }
 
@@ -142,7 +155,10 @@ class OffParser {
       places_.push_back(place);
       if (header_.is_one_line) continue;
       if (header_.magic.has_normals) read_normal(v);
-      if (header_.magic.has_colors || header_.magic.has_texcoords) read_rest(v);
+      if (header_.magic.has_colors || header_.magic.has_texcoords)
+        read_rest(v);
+      else
+        n_longer_ += !text_.word_in_line().empty();
       text_.skip_line();
     }
   }
@@ -212,6 +228,7 @@ class OffParser {
   Remarks* remarks_;
   OffHeader header_;
   TriMesh mesh_;
+  std::size_t n_longer_ = 0;
   std::vector<glm::dvec3> places_;
   std::vector<std::int64_t> nowhere_lines_;  // of vertices without a position
   std::vector<Color> colors_;

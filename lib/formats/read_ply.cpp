@@ -287,7 +287,8 @@ std::vector<glm::vec2> read_texcoords(const PlyDocument& ply, const FaceList& fa
                                       const std::vector<Triangle>& triangles) {
   if (!sources.corners.empty()) return read_corner_texcoords(ply, faces, sources);
   static constexpr const char* kPairs[][2] = {
-      {"s", "t"}, {"u", "v"}, {"texture_u", "texture_v"}, {"texture_s", "texture_t"}};
+      {"s", "t"},   {"u", "v"},   {"texture_u", "texture_v"},  {"texture_s", "texture_t"},
+      {"u0", "v0"}, {"s0", "t0"}, {"texcoord_u", "texcoord_v"}};
   for (const auto& [s, t] : kPairs)
     if (has_all(ply, {s, t})) return read_vertex_texcoords(ply, s, t, triangles);
   return {};
@@ -309,6 +310,8 @@ TriMesh parse_ply_mesh(std::string_view bytes, const std::filesystem::path& file
   if (has_all(ply, {"nx", "ny", "nz"})) mesh.normals = read_normals(ply);
   mesh.colors = read_colors(ply, remarks);
   mesh.texcoords = read_texcoords(ply, faces, sources, mesh.triangles);
+  if (ply.has("face", "texnumber"))
+    add_remark(remarks, "faces with a picture's number (texnumber), passed over", faces.size());
   return mesh;
 }
 

@@ -114,6 +114,11 @@ bool has_other_masks(const HeaderBytes& bytes) {
          masks != std::array<std::uint32_t, 3>{0x7c00, 0x3e0, 0x1f};
 }
 
+void check_unread(const UnreadParts& unread, const std::string& file, Remarks* remarks) {
+  if (!unread.fault.empty()) throw InputError(file, "header", unread.fault);
+  if (!unread.alpha.empty()) add_remark(remarks, unread.alpha + ", left out");
+}
+
 std::string size_in_words(long long width_px, long long height_px) {
   return std::to_string(width_px) + " x " + std::to_string(height_px) + " pixels";
 }
@@ -173,6 +178,8 @@ ImageFormat check_image_header(std::string_view bytes, const std::string& file,
   if (*format == ImageFormat::bmp && has_other_masks(HeaderBytes(bytes)))
     throw InputError(file, "header",
                      "a BMP with bit masks of its own, which are not read: convert it to PNG");
+  if (*format == ImageFormat::bmp) check_unread(find_unread_of_bmp(bytes), file, remarks);
+  if (*format == ImageFormat::targa) check_unread(find_unread_of_targa(bytes), file, remarks);
   add_remark(remarks, kFurtherPictures, facts->n_pictures - 1);
   return *format;
 }

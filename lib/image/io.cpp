@@ -18,6 +18,8 @@
 namespace viewcell {
 namespace {
 
+constexpr int kMostRead = 8;  // channels are decoded from the first on
+
 // In file order, the channels that become R, G, B and A; alpha -1 when there is none.
 struct ChannelMap {
   std::array<int, 4> from;
@@ -33,14 +35,23 @@ ChannelMap map_channels(const OIIO::ImageSpec& spec, ImageFormat format, const s
     const int y = spec.channelindex("Y");
     map.from = {spec.channelindex("R"), spec.channelindex("G"), spec.channelindex("B"),
                 spec.channelindex("A")};
+    const auto has = [&](const char* name) { return spec.channelindex(name) >= 0; };
+    if (has("RY") || has("BY") || (map.from[0] < 0 && has("X") && has("Z")))
+      throw InputError(file, "header",
+                       "has its colours as luminance and differences, or as CIE XYZ, which are not "
+                       "read: convert them to R, G, B");
     if (map.from[0] < 0) map.from = {y, y, y, map.from[3]};
   }
+  if (format == ImageFormat::tiff && spec.nchannels > 3 && spec.alpha_channel > 2)
+    map.from[3] = spec.alpha_channel;
   for (int c = 0; c < 3; ++c)
     if (map.from[static_cast<std::size_t>(c)] < 0)
       throw InputError(file, "header", "has no channels R, G, B nor Y");
   map.n_read = 1 + *std::max_element(map.from.begin(), map.from.end());
-  if (map.n_read > 4)
-    throw InputError(file, "header", "its colour is not among the first four channels");
+  if (map.n_read > kMostRead)
+    throw InputError(
+        file, "header",
+        "its colour or alpha is not among the first " + std::to_string(kMostRead) + " channels");
   return map;
 }
 
@@ -75,17 +86,28 @@ void divide_by_alpha(ImageRgbaFloat& image, float full) {
     for (std::size_t c = 0; c < 3 && p[3] > 0; ++c) p[c] = p[c] * full / p[3];
 }
 
-// BMP and TGA of 32 bits often leave the fourth byte at 0 and mean nothing by it.
-void mend_alpha(ImageFormat format, ImageRgba8& image, Remarks* remarks) {
+// TIFFs whose 0 is white: OpenImageIO turns all channels of 8 bits, and none of more.
+bool is_min_white(const MemoryInput& input) {
+  return input.format == ImageFormat::tiff &&
+         input.spec.get_int_attribute("tiff:PhotometricInterpretation", -1) == 0;
+}
+
+// BMP and TGA of 32 bits may say that the fourth byte is no alpha, and often leave it at 0 and mean
+// nothing by it.
+void mend_alpha(ImageFormat format, std::string_view bytes, ImageRgba8& image, Remarks* remarks) {
   if (format != ImageFormat::bmp && format != ImageFormat::targa) return;
+  if (format == ImageFormat::targa ? targa_has_no_alpha(bytes) : bmp_has_no_alpha(bytes))
+    for (Rgba8& pixel : image.pixels) pixel[3] = 255;
   const auto is_clear = [](const Rgba8& pixel) { return pixel[3] == 0; };
   if (!std::all_of(image.pixels.begin(), image.pixels.end(), is_clear)) return;
   for (Rgba8& pixel : image.pixels) pixel[3] = 255;
   add_remark(remarks, "alpha that is 0 everywhere, taken as opaque");
 }
 
-SampleKind kind_of(const OIIO::TypeDesc& type, const std::string& file) {
+SampleKind kind_of(ImageFormat format, const OIIO::TypeDesc& type, const std::string& file) {
   if (type.is_floating_point()) return SampleKind::linear;
+  if (format == ImageFormat::openexr)
+    throw InputError(file, "header", "has whole numbers for samples, which are no colours");
   if (type.is_signed())
     throw InputError(file, "header", "has signed samples, which are no colours");
   return type == OIIO::TypeUInt8 ? SampleKind::code8 : SampleKind::code16;
@@ -120,7 +142,7 @@ OpenedPicture open_picture(std::string_view bytes, const std::string& file,
   OpenedPicture opened{
       open_memory(bytes, file, options.limits, options.remarks), bytes, {}, {}, false};
   opened.map = map_channels(opened.input.spec, opened.input.format, file);
-  opened.kind = kind_of(opened.input.spec.format, file);
+  opened.kind = kind_of(opened.input.format, opened.input.spec.format, file);
   remark_channels(opened.input.spec, opened.map, options.remarks);
   opened.is_multiplied = is_multiplied(opened.input, bytes);
   return opened;
@@ -128,8 +150,7 @@ OpenedPicture open_picture(std::string_view bytes, const std::string& file,
 
 constexpr const char* kDivided = "colours stored multiplied by alpha, divided by it";
 
-// As stored, but for the depth.
-ImageRgbaFloat read_samples(OpenedPicture& opened, const std::string& file) {
+ImageRgbaFloat decode_samples(OpenedPicture& opened, const std::string& file) {
   MemoryInput& input = opened.input;
   const auto keep = [](auto x, std::size_t) { return static_cast<float>(x); };
   if (opened.kind == SampleKind::linear)
@@ -140,6 +161,16 @@ ImageRgbaFloat read_samples(OpenedPicture& opened, const std::string& file) {
                   keep);
   return gather(decode<std::uint16_t>(input, opened.map.n_read, file), input.spec, opened.map,
                 RgbaFloat{0, 0, 0, 65535}, keep);
+}
+
+// As stored, but for the depth.
+ImageRgbaFloat read_samples(OpenedPicture& opened, const std::string& file) {
+  ImageRgbaFloat image = decode_samples(opened, file);
+  if (!is_min_white(opened.input)) return image;
+  const float white = opened.kind == SampleKind::linear ? 1.f : 65535.f;
+  for (RgbaFloat& pixel : image.pixels)
+    for (std::size_t c = 0; c < 3; ++c) pixel[c] = white - pixel[c];
+  return image;
 }
 
 std::uint8_t round_code(float x) {
@@ -178,8 +209,10 @@ ImageRgba8 read_codes(OpenedPicture& opened, const std::string& file, Remarks* r
   ImageRgba8 image =
       gather(decode<std::uint8_t>(input, opened.map.n_read, file), input.spec, opened.map,
              Rgba8{0, 0, 0, 255}, [](std::uint8_t x, std::size_t) { return x; });
+  if (is_min_white(input) && opened.map.from[3] >= 0)
+    for (Rgba8& pixel : image.pixels) pixel[3] = static_cast<std::uint8_t>(255 - pixel[3]);
   if (opened.is_multiplied) divide_by_alpha(image);
-  mend_alpha(input.format, image, remarks);
+  mend_alpha(input.format, opened.bytes, image, remarks);
   return image;
 }
 

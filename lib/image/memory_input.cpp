@@ -62,6 +62,10 @@ void check_inflation(const OIIO::ImageSpec& spec, std::size_t n_file_bytes, cons
                          (bound.is_law ? "" : ": decoded with --max-pixels alone"));
 }
 
+int rows_a_strip(const OIIO::ImageSpec& spec) {
+  return spec.get_int_attribute("tiff:RowsPerStrip", spec.height);
+}
+
 // What the decoder will allocate, before it does.
 void check_spec(const MemoryInput& picture, std::size_t n_file_bytes, const std::string& file,
                 const ImageLimits& limits) {
@@ -77,6 +81,15 @@ void check_spec(const MemoryInput& picture, std::size_t n_file_bytes, const std:
   // OpenImageIO leaves rows of such as the memory was.
   if (picture.format == ImageFormat::tiff && spec.format == OIIO::TypeDesc::DOUBLE)
     throw InputError(file, "header", "has 64 bits a sample, which is not read: convert it to 32");
+  const int photometric = spec.get_int_attribute("tiff:PhotometricInterpretation");
+  if (picture.format == ImageFormat::tiff && photometric >= 8 && photometric <= 10)
+    throw InputError(file, "header", "has its colours as CIE L*a*b*, which is not read");
+  if (picture.format == ImageFormat::tiff && spec.tile_width == 0 &&
+      spec.get_string_attribute("planarconfig") == "separate" &&
+      spec.get_string_attribute("compression", "none") != "none" && rows_a_strip(spec) > 1)
+    throw InputError(file, "header",
+                     "has its channels apart and compressed, which is not read: convert it to "
+                     "interleaved channels (tiffcp -p contig)");
   if (picture.format == ImageFormat::openexr || picture.format == ImageFormat::tiff)
     check_inflation(spec, n_file_bytes, file, limits);
 }
@@ -90,6 +103,11 @@ void remark_spec(MemoryInput& picture, const std::string& file, Remarks* remarks
     if (const std::string space = picture.spec.get_string_attribute(key);
         space == "CMYK" || space == "YCbCrK")
       add_remark(remarks, space + ", taken as RGB without its profile");
+  const OIIO::ImageSpec& s = picture.spec;
+  if (s.x != s.full_x || s.y != s.full_y || s.width != s.full_width || s.height != s.full_height)
+    add_remark(remarks, "the data window is taken alone: at " + std::to_string(s.x - s.full_x) +
+                            ", " + std::to_string(s.y - s.full_y) + " of a display window of " +
+                            std::to_string(s.full_width) + " x " + std::to_string(s.full_height));
   // The pictures of other formats are counted by check_image_header.
   const bool is_exr = picture.format == ImageFormat::openexr;
   if (remarks == nullptr || !(is_exr || picture.format == ImageFormat::tiff)) return;

@@ -182,14 +182,59 @@ std::optional<PictureFacts> hdr_facts(std::string_view bytes) {
   return facts;
 }
 
-bool targa_is_multiplied(std::string_view bytes) {
-  // The footer of version 2 points to the extension area, whose last byte is the kind of alpha.
+namespace {
+
+// What the extension area of a TGA of version 2 says of alpha; nothing without one.
+std::optional<std::uint32_t> targa_alpha(std::string_view bytes) {
+  // The footer points to the area, whose last byte is the kind of alpha.
   constexpr std::size_t kFooter = 26, kKindAt = 494;
-  constexpr std::uint32_t kMultiplied = 4;
   const HeaderBytes tga(bytes);
-  if (bytes.size() < kFooter || !tga.has_at(bytes.size() - 18, "TRUEVISION-XFILE")) return false;
+  if (bytes.size() < kFooter || !tga.has_at(bytes.size() - 18, "TRUEVISION-XFILE")) return {};
   const std::size_t extension = tga.le32(bytes.size() - kFooter);
-  return extension > 0 && tga.u8(extension + kKindAt) == kMultiplied;
+  if (extension == 0 || extension + kKindAt >= bytes.size() - kFooter) return {};
+  return tga.u8(extension + kKindAt);
+}
+
+// Of 32 bits a pixel, by masks; 0: those are told by another header.
+std::uint32_t bmp_alpha_mask_at(const HeaderBytes& bmp) {
+  constexpr std::uint32_t kWithAlphaMask = 56;  // bytes of the header
+  return bmp.le32(30) == 3 && bmp.le32(14) >= kWithAlphaMask ? 66 : 0;
+}
+
+}  // namespace
+
+bool targa_is_multiplied(std::string_view bytes) {
+  return targa_alpha(bytes) == 4u;
+}
+
+bool targa_has_no_alpha(std::string_view bytes) {
+  const std::optional<std::uint32_t> alpha = targa_alpha(bytes);
+  return alpha && *alpha < 2;  // none, or undefined and to be ignored
+}
+
+bool bmp_has_no_alpha(std::string_view bytes) {
+  const HeaderBytes bmp(bytes);
+  const std::uint32_t at = bmp_alpha_mask_at(bmp);
+  return at > 0 && bmp.le32(at) == 0;
+}
+
+UnreadParts find_unread_of_targa(std::string_view bytes) {
+  const HeaderBytes tga(bytes);
+  const std::uint32_t base_kind = tga.u8(2) & 7, bits = tga.u8(16), alpha_bits = tga.u8(17) & 15;
+  UnreadParts out;
+  if (base_kind == 1 && tga.le16(3) > 0)
+    out.fault = "has a palette that does not start at 0, which is not read";
+  if (base_kind == 1 && tga.u8(7) == 32) out.alpha = "alpha of a palette";
+  if (base_kind == 2 && bits == 16 && alpha_bits > 0) out.alpha = "alpha of one bit";
+  return out;
+}
+
+UnreadParts find_unread_of_bmp(std::string_view bytes) {
+  const HeaderBytes bmp(bytes);
+  const std::uint32_t at = bmp_alpha_mask_at(bmp);
+  UnreadParts out;
+  if (at > 0 && bmp.le16(28) == 16 && bmp.le32(at) != 0) out.alpha = "alpha of one bit";
+  return out;
 }
 
 }  // namespace viewcell

@@ -53,8 +53,20 @@ std::optional<PictureFacts> targa_facts(std::string_view bytes);
 std::optional<PictureFacts> pnm_facts(std::string_view bytes);
 std::optional<PictureFacts> hdr_facts(std::string_view bytes);
 
-/// Whether a TGA says that its colours are multiplied by alpha.
+/// Whether a TGA says that its colours are multiplied by alpha, or that what stands in alpha's
+/// place is none.
 bool targa_is_multiplied(std::string_view bytes);
+bool targa_has_no_alpha(std::string_view bytes);
+/// The same of a BMP: bit masks, and none for alpha.
+bool bmp_has_no_alpha(std::string_view bytes);
+
+/// What of a TGA or BMP is there and not read: a fault ("" where there is none), or an alpha, by
+/// name ("").
+struct UnreadParts {
+  std::string fault, alpha;
+};
+UnreadParts find_unread_of_targa(std::string_view bytes);
+UnreadParts find_unread_of_bmp(std::string_view bytes);
 
 /// The next word of a text header from i, which moves behind it; white space and comments (# to
 /// the line's end) before it are passed over.

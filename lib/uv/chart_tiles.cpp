@@ -11,7 +11,7 @@ namespace {
 // How far a chart may reach out of the picture and be taken for careless, over the picture.
 constexpr double kOvershoot = 0.1;
 // How much wider than the picture one that fills it may be: some texels, which exporters round to.
-constexpr double kWider = 0.01;
+constexpr double kWider = 0.02;
 
 bool is_within(const UvRange& range, double slack) {
   return std::min(range.lo.x, range.lo.y) >= -slack &&

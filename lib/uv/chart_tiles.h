@@ -12,7 +12,7 @@ struct UvRange {
   glm::dvec2 lo{0}, hi{0};
 };
 
-/// Wider than the picture by more than a hundredth, beside it, or more than a tenth out of it.
+/// Wider than the picture by more than a fiftieth, beside it, or more than a tenth out of it.
 bool is_repeating(const UvRange& range);
 
 /// The lower left corner of the tile that holds the range; where none does, of the one into which

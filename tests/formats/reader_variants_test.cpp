@@ -133,7 +133,10 @@ TEST(OffVariants, AllOnOneLine) {
   std::replace(text.begin(), text.end(), '\n', ' ');
   expect_cube(parse_off(text, "m.off"));
   EXPECT_INPUT_ERROR(parse_off(text + "3 0 1 2", "m.off"), "more stands behind the last face");
-  EXPECT_INPUT_ERROR(parse_off("C" + text, "m.off"), "three coordinates alone");
+  EXPECT_INPUT_ERROR(parse_off("C" + text, "m.off"), "fewer lines than vertices and faces");
+  // Counts on a line of their own.
+  text.replace(text.find(" 0 ") + 2, 1, "\n");
+  expect_cube(parse_off(text, "m.off"));
   EXPECT_INPUT_ERROR(parse_off(text.substr(0, text.size() - 3), "m.off"), "too early");
 }
 
@@ -419,6 +422,28 @@ TEST(ObjAndOffVariants, VerticesOfNoFaceMayBeNowhere) {
   EXPECT_INPUT_ERROR(read_bytes("m.off", off + "0 2 3\n"), "line 2: vertex 0: a coordinate is not");
 }
 
+// Alpha behind the colour, or a weight before it.
+TEST(ObjVariants, SevenNumbersOfAVertex) {
+  const auto first_color = [](const std::string& first, const std::string& second) {
+    return parse_obj(
+               "v 0 0 0 " + first + "\nv 1 0 0 " + second + "\nv 0 1 0 " + second + "\nf 1 2 3\n",
+               "m.obj")
+        .colors[0];
+  };
+  EXPECT_EQ(first_color("1 0 1 0", "1 1 1 1"), glm::vec3(0, 1, 0));        // w r g b
+  EXPECT_EQ(first_color("1 0 0 1", "0 1 0 1"), glm::vec3(1, 0, 0));        // r g b a
+  EXPECT_EQ(first_color("255 0 0 255", "0 0 0 255"), glm::vec3(1, 0, 0));  // of bytes
+  EXPECT_EQ(first_color("1 0 0 1", "1 0 0 1"), glm::vec3(0, 0, 1));        // may be either
+}
+
+TEST(OffVariants, NumbersBeyondTheFirstWordAreSaid) {
+  const auto [mesh, remarks] =
+      read_bytes("m.off", "OFF 3 1 0\n0 0 0 1 0 0\n1 0 0\n0 1 0 1 1 1\n3 0 1 2\n");
+  EXPECT_EQ(
+      count_of(remarks, "vertices with more numbers than the file's first word says, passed over"),
+      2u);
+}
+
 TEST(ObjVariants, ColoursOfZBrushAreSaid) {
   const auto [mesh, remarks] =
       read_bytes("m.obj", "#MRGB ffff0000\n" + cube_obj() + "# not #MRGB \n#MRGB ff00ff00\n");
@@ -430,6 +455,10 @@ TEST(PlyVariants, NamesInCapitals) {
       replaced(replaced(replaced(cube_ply(), "float x", "float X"), "float y", "float Y"),
                "float z", "float Z");
   expect_cube(read_bytes("m.ply", capitals_of_it).mesh);
+  expect_cube(
+      read_bytes("m.ply", replaced(replaced(capitals_of_it, "element vertex", "element VERTEX"),
+                                   "property float X", "property FLOAT X"))
+          .mesh);
   const std::string both =
       "ply\nformat ascii 1.0\nelement vertex 3\nproperty float X\n"
       "property float x\nproperty float y\nproperty float z\nelement face 1\n"

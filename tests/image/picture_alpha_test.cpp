@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 #include <webp/encode.h>
 
+#include <array>
+
 #include "base/file.h"
 #include "base/random.h"
 #include "common/expect_input_error.h"
@@ -115,6 +117,38 @@ TEST(PictureAlpha, TiffOfAssociatedAlphaIsDivided) {
   EXPECT_TRUE(straight.empty());
 }
 
+// TIFFs of gray whose 0 is white: gray is turned over, alpha is not, whatever the depth.
+std::string min_white_tiff(std::uint32_t n_bytes, bool has_alpha,
+                           const std::vector<std::uint32_t>& samples) {
+  const std::uint32_t n_tags = has_alpha ? 10 : 9, n_channels = has_alpha ? 2 : 1;
+  const std::uint32_t after = 8 + 2 + 12 * n_tags + 4;
+  const auto tag = [](std::uint32_t id, std::uint32_t kind, std::uint32_t count,
+                      std::uint32_t value) {
+    return le(id, 2) + le(kind, 2) + le(count, 4) + le(value, 4);
+  };
+  const auto n = static_cast<std::uint32_t>(samples.size());
+  const std::uint32_t bits = 8 * n_bytes;
+  std::string out = "II" + le(42, 2) + le(8, 4) + le(n_tags, 2) + tag(256, 3, 1, n / n_channels) +
+                    tag(257, 3, 1, 1) +
+                    tag(258, 3, n_channels, has_alpha ? bits << 16 | bits : bits) +
+                    tag(259, 3, 1, 1) + tag(262, 3, 1, 0) + tag(273, 4, 1, after) +
+                    tag(277, 3, 1, n_channels) + tag(278, 3, 1, 1) + tag(279, 4, 1, n * n_bytes);
+  if (has_alpha) out += tag(338, 3, 1, 2);
+  out += le(0, 4);
+  for (const std::uint32_t x : samples) out += le(x, static_cast<int>(n_bytes));
+  return out;
+}
+
+TEST(PictureAlpha, WhereZeroIsWhite) {
+  EXPECT_EQ(decode_bytes(min_white_tiff(1, false, {0, 55})).at(1, 0), (Rgba8{200, 200, 200, 255}));
+  EXPECT_EQ(decode_bytes(min_white_tiff(2, false, {0, 55 * 257})).at(1, 0),
+            (Rgba8{200, 200, 200, 255}));
+  EXPECT_EQ(decode_bytes(min_white_tiff(1, true, {55, 30, 0, 255})).at(0, 0),
+            (Rgba8{200, 200, 200, 30}));
+  EXPECT_EQ(decode_bytes(min_white_tiff(2, true, {55 * 257, 30 * 257, 0, 65535})).at(0, 0),
+            (Rgba8{200, 200, 200, 30}));
+}
+
 TEST(PictureAlpha, AlsoOf16Bits) {
   const TemporaryFolder folder;
   const auto file = folder / "a.tif";
@@ -136,6 +170,76 @@ std::string targa(std::uint32_t kind_of_alpha) {
 TEST(PictureAlpha, TargaThatSaysSoIsDivided) {
   EXPECT_EQ(decode_bytes(targa(3)).at(0, 0), (Rgba8{64, 32, 16, 128}));
   EXPECT_EQ(decode_bytes(targa(4)).at(0, 0), (Rgba8{128, 64, 32, 128}));
+}
+
+TEST(PictureAlpha, TargaThatHasNone) {
+  EXPECT_EQ(decode_bytes(targa(0)).at(0, 0), (Rgba8{64, 32, 16, 255}));
+  EXPECT_EQ(decode_bytes(targa(1)).at(0, 0), (Rgba8{64, 32, 16, 255}));
+  EXPECT_EQ(decode_bytes(targa(2)).at(0, 0), (Rgba8{64, 32, 16, 128}));
+}
+
+// Palettes of two colours, whose entries are numbered from `first` on.
+std::string targa_of_palette(std::uint32_t first, std::uint32_t bits) {
+  const std::string map =
+      le(0x80102030, static_cast<int>(bits / 8)) + le(0x40405060, static_cast<int>(bits / 8));
+  return le(0x010100, 3) + le(first, 2) + le(2, 2) + le(bits, 1) + le(0, 4) + le(2, 2) + le(1, 2) +
+         "\x08\x20" + map + le(first, 1) + le(first + 1, 1);
+}
+
+TEST(PictureAlpha, PalettesOfTargas) {
+  EXPECT_INPUT_ERROR(decode_bytes(targa_of_palette(10, 24)), "palette that does not start at 0");
+  Remarks remarks;
+  decode_bytes(targa_of_palette(0, 32) + "more", &remarks);
+  ASSERT_EQ(remarks.size(), 1u);
+  EXPECT_EQ(remarks[0].what, "alpha of a palette, left out");
+}
+
+// A BMP of one pixel, 16 or 32 bits, with masks.
+std::string bmp_of_masks(std::uint32_t bits, const std::array<std::uint32_t, 4>& masks) {
+  std::string out = "BM" + le(14 + 108 + bits / 8, 4) + le(0, 4) + le(14 + 108, 4) + le(108, 4) +
+                    le(1, 4) + le(1, 4) + le(1, 2) + le(bits, 2) + le(3, 4) + le(4, 4) + le(0, 16);
+  for (const std::uint32_t mask : masks) out += le(mask, 4);
+  return out + std::string(108 - 56, '\0') + le(0x80402010, 4);
+}
+
+TEST(PictureAlpha, BmpWithoutAMaskForItIsOpaque) {
+  EXPECT_EQ(decode_bytes(bmp_of_masks(32, {0xff0000, 0xff00, 0xff, 0})).at(0, 0),
+            (Rgba8{64, 32, 16, 255}));
+  EXPECT_EQ(decode_bytes(bmp_of_masks(32, {0xff0000, 0xff00, 0xff, 0xff000000})).at(0, 0),
+            (Rgba8{64, 32, 16, 128}));
+  Remarks remarks;
+  decode_bytes(bmp_of_masks(16, {0x7c00, 0x3e0, 0x1f, 0x8000}), &remarks);
+  ASSERT_EQ(remarks.size(), 1u);
+  EXPECT_EQ(remarks[0].what, "alpha of one bit, left out");
+}
+
+void write_exr(const std::filesystem::path& file, const OIIO::ImageSpec& spec) {
+  const auto output = OIIO::ImageOutput::create(file.string());
+  ASSERT_TRUE(output->open(file.string(), spec));
+  const std::vector<float> samples(64, 0.5f);
+  ASSERT_TRUE(output->write_image(OIIO::TypeFloat, samples.data()));
+  output->close();
+}
+
+TEST(Exr, WindowsAreSaidAndOtherChannelsRefused) {
+  const TemporaryFolder folder;
+  OIIO::ImageSpec spec(2, 1, 3, OIIO::TypeHalf);
+  spec.x = 5, spec.y = 7, spec.full_width = 20, spec.full_height = 10;
+  write_exr(folder / "window.exr", spec);
+  Remarks remarks;
+  EXPECT_EQ(read_image_rgba8(folder / "window.exr", {{}, &remarks}).width_px, 2);
+  ASSERT_EQ(remarks.size(), 2u);  // and that samples are linear
+  EXPECT_EQ(remarks[0].what,
+            "the data window is taken alone: at 5, 7 of a display window of 20 x 10");
+  for (const std::vector<std::string>& names :
+       {std::vector<std::string>{"Y", "RY", "BY"}, {"X", "Y", "Z"}}) {
+    OIIO::ImageSpec other(2, 1, 3, OIIO::TypeHalf);
+    other.channelnames = names;
+    write_exr(folder / "other.exr", other);
+    EXPECT_INPUT_ERROR(read_image_rgba8(folder / "other.exr"), "CIE XYZ");
+  }
+  write_exr(folder / "whole.exr", OIIO::ImageSpec(2, 1, 3, OIIO::TypeUInt));
+  EXPECT_INPUT_ERROR(read_image_rgba8(folder / "whole.exr"), "whole numbers");
 }
 
 TEST(PictureAlpha, ExrIsDividedBeforeItIsEncoded) {
@@ -171,8 +275,7 @@ TEST(Netpbm, OtherMaximaAreRoundedToTheNearest) {
   }
   for (const std::string& bytes : {hundred, text}) {
     const ImageRgba8 image = decode_bytes(bytes);
-    for (int x = 0; x <= 100; ++x)
-      EXPECT_EQ(image.at(x, 0)[0], (x * 255 + 50) / 100) << x;
+    for (int x = 0; x <= 100; ++x) EXPECT_EQ(image.at(x, 0)[0], (x * 255 + 50) / 100) << x;
   }
 }
 

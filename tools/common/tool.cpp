@@ -257,7 +257,7 @@ const Command& Command::command(const std::string& name) const {
 
 Tool::Tool(const std::string& name, const std::string& description, const std::string& example)
     : Command(name, description), example_(example) {
-  add_flag("-q,--quiet", &common_.quiet, "no progress and no summary on stderr");
+  add_flag("-q,--quiet", &common_.quiet, "no progress, remarks and summary on stderr");
   add_option("-j,--threads", &common_.n_threads, "threads (0: all cores)").check(in_range(0, 1024));
   add_option("--json", &common_.json_file, "write a report as JSON to this file (-: stdout)")
       .writes();

@@ -65,7 +65,8 @@ void declare_arguments(Tool& tool, PlayArguments& o) {
                   "frames of one mode before the next has its turn")
       .show_default()
       .check(in_range(1, 100000));
-  tool.add_option("--size", &o.size, "WIDTHxHEIGHT in px, both the same: frames are square").show_default();
+  tool.add_option("--size", &o.size, "WIDTHxHEIGHT in px, both the same: frames are square")
+      .show_default();
   tool.add_option("--save", &o.session.save, "folder to write frames to, as PNG")
       .writes({"*/frame-*.png"});
   tool.add_flag("--save-alpha", &o.session.save_alpha,

@@ -1,4 +1,6 @@
 #include <cstdio>
+#include <set>
+#include <utility>
 
 #include "base/error.h"
 #include "base/version.h"
@@ -28,10 +30,19 @@ void choose_level(const PmeshArguments& a, ProgressiveMesh& mesh) {
     throw InputError(a.pm, "", "has no error bounds; pmesh build --track-error keeps them");
 }
 
+// Of the finest mesh's materials those of which no face is left.
+std::size_t count_lost_materials(const std::set<std::int32_t>& finest, const TriMesh& level) {
+  const std::set<std::int32_t> left(level.materials.begin(), level.materials.end());
+  return finest.size() - left.size();
+}
+
 }  // namespace
 
 int extract(const Tool& tool, const PmeshArguments& a) {
-  ProgressiveMesh mesh(read_pm(a.pm));
+  ProgressiveRecord record = read_pm(a.pm);
+  const std::set<std::int32_t> materials(record.attributes.materials.begin(),
+                                         record.attributes.materials.end());
+  ProgressiveMesh mesh(std::move(record));
   // From the finest level on, as a program that draws goes.
   mesh.set_level(mesh.n_splits());
   Stopwatch watch;
@@ -43,6 +54,8 @@ int extract(const Tool& tool, const PmeshArguments& a) {
   if (!is_short) tool.say(std::to_string(out.triangles.size()) + " faces");
   Remarks remarks;
   add_remark(&remarks, "pieces have vanished whole at this level", mesh.n_vanished());
+  add_remark(&remarks, "materials have no face left at this level",
+             count_lost_materials(materials, out));
   tool.remark(a.pm, remarks);
   tool.report({{"faces", out.triangles.size()},
                {"vertices", out.positions.size()},

@@ -60,6 +60,9 @@ void keep_one_look(ShownPictures& shown) {
   if (found == shown.picture_of.end()) return;
   shown.looks = {shown.looks[static_cast<std::size_t>(found - shown.picture_of.begin())]};
   shown.picture_of = {0};
+  // The picture is made for coordinates in [0, 1]: beside them nothing of the other side.
+  GlbSampler& sampler = shown.looks[0].color_sampler;
+  sampler.wrap_s = sampler.wrap_t = GlbSampler::kClampToEdge;
 }
 
 // ---- charts ----
@@ -92,12 +95,30 @@ std::string describe_moves(const ChartFindings& findings) {
          "the first\n";
 }
 
+// Whether materials show the picture repeated, where they say how.
+bool is_repeated(const ShownPictures& shown, const ShownPicture& picture) {
+  const auto id = static_cast<int>(&picture - shown.pictures.data());
+  for (std::size_t m = 0; m < shown.looks.size(); ++m) {
+    const GlbSampler& sampler = shown.looks[m].color_sampler;
+    if (shown.picture_of[m] == id &&
+        (sampler.wrap_s != GlbSampler::kRepeat || sampler.wrap_t != GlbSampler::kRepeat))
+      return false;
+  }
+  return true;
+}
+
 // Charts in other tiles of a repeating picture are moved into the first.
 void leave_tiles(const TexadaptArguments& a, TexadaptInputs& in) {
   std::vector<glm::vec2> by(in.finest.triangles.size(), glm::vec2(0));
   for (const ShownPicture& picture : in.shown.pictures) {
     const ChartFindings findings = find_charts_of(a, in, picture);
     if (picture.stays || findings.tiles.empty()) continue;
+    if (!is_repeated(in.shown, picture))
+      throw InputError(a.pm, "",
+                       (picture.of.empty() ? "" : picture.of + ": ") +
+                           std::to_string(findings.n_elsewhere) +
+                           " charts lie beside their picture, which is clamped or mirrored there: "
+                           "bring them into [0, 1], or have it repeat");
     for (std::size_t f = 0; f < by.size(); ++f) by[f] -= glm::vec2(findings.tiles[f]);
     in.charts += (picture.of.empty() ? "" : picture.of + ": ") + describe_moves(findings);
   }

@@ -12,17 +12,19 @@
 namespace viewcell {
 namespace {
 
+constexpr double kFar = 0.1;  // of the diagonal of the finest mesh's box
+
 // What is shown is what is nearest.
 void check_place(const TexadaptArguments& a, const Box& onto, const Box& finest) {
+  const double slack = kFar * glm::length(finest.size());
   for (int k = 0; k < 3; ++k)
-    if (onto.lo[k] > finest.hi[k] || onto.hi[k] < finest.lo[k])
+    if (onto.lo[k] > finest.hi[k] + slack || onto.hi[k] < finest.lo[k] - slack)
       throw InputError(a.onto, "", "lies elsewhere than " + a.pm + ": their boxes do not meet");
 }
 
 // Where much of the mesh is far from all that it shows: another scale, or other axes.
 void remark_far_vertices(const Tool& tool, const TexadaptArguments& a, const TriMesh& onto,
                          const TriMesh& finest) {
-  constexpr double kFar = 0.1;
   const Box box = surface_box(finest);
   const double far = kFar * glm::length(box.hi - box.lo);
   Box domain = surface_box(onto);
@@ -48,7 +50,17 @@ TriMesh read_target(const Tool& tool, const TexadaptArguments& a, const Texadapt
   check_place(a, surface_box(mesh), surface_box(in.finest));
   const AdaptLevelsOptions o = options_of(a, in.shown.pictures[0]);
   if (!mesh.texcoords.empty()) {
-    check_obstacle(a.onto, "", check_charts(mesh, o.width_px, o.height_px), a.allows_overlap);
+    const ChartFindings findings = check_charts(mesh, o.width_px, o.height_px);
+    check_obstacle(a.onto, "", findings, a.allows_overlap);
+    // A chart that folds over itself is as good as the picture of a mesh that has it; of another's
+    // a texel can show one of the two places.
+    if (!findings.overlaps.empty() && !a.allows_overlap)
+      throw InputError(a.onto, "",
+                       "a chart lies over itself, the first at triangle " +
+                           std::to_string(findings.overlaps.front().first) + ", on " +
+                           std::to_string(findings.n_shared) +
+                           " texels in all, which show two places (--allow-overlap goes on all "
+                           "the same)");
     return mesh;
   }
   if (a.format != LevelFormat::glb && a.mesh.empty())
