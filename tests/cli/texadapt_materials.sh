@@ -202,7 +202,7 @@ grep -q "large.obj: .*vertices farther than a tenth .* from patch.pm" "$log/err"
 # A mesh whose halves share texels; a plate a little above one: its box does not meet the other's.
 awk '/^vt / { u = 2 * $2 - 1; print "vt", (u < 0 ? -u : u), $3; next } { print }' patch.obj >mirrored.obj
 fault 1 "mirrored.obj: a chart lies over itself" "$texadapt" patch.pm patch.png --engine rebake --onto mirrored.obj -o x.png
-expect 0 "$texadapt" patch.pm patch.png --engine rebake --onto mirrored.obj --allow-overlap -o x.png
+expect 0 "$texadapt" patch.pm patch.png --engine rebake --onto mirrored.obj --allow-overlap -o mirrored.png
 # Far from the origin, where the two files have offsets of their own.
 far() { awk '/^v / { printf "v %.6f %.6f %s\n", $2 + 500000, $3 + 5200000, $4; next } { print }' "$1"; }
 far patch.obj >far.obj
