@@ -15,7 +15,7 @@ inline constexpr const char* kBacksRecut =
 /// Whether a mesh of so many triangles over so many places may have such sheets: a surface of one
 /// side has no more than two triangles a vertex.
 inline bool may_have_backs(std::size_t n_triangles, std::size_t n_vertices) {
-  return static_cast<double>(n_triangles) > 2.05 * static_cast<double>(n_vertices);
+  return n_triangles > 2 * n_vertices;
 }
 
 /// Programs that cut each quad from its first corner on cut the back of a sheet the other way:
