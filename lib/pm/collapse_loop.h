@@ -151,7 +151,8 @@ class CollapseLoop {
   static constexpr int kReach = reach();
   // A lazy key that is too high would never come up: costs into optimal positions fall, too, when
   // what is around them is gone, and are looked at again after so many changes.
-  static constexpr int kMostStale = kHasPlacement && kReach > 1 ? 8 : 256;
+  static constexpr bool kFalls = kHasPlacement && kReach > 1;
+  static constexpr std::uint8_t kMostStale = 8;
 
   static std::uint32_t size32(const CollapseMesh& mesh) {
     return static_cast<std::uint32_t>(mesh.n_vertices());
@@ -329,13 +330,15 @@ class CollapseLoop {
 
   // Costs of w have changed: all of them, or those towards u and v.
   void revise(std::uint32_t w, std::uint32_t u, std::uint32_t v, bool lazy, bool all) {
-    if (lazy && heap_.contains(w) && n_stale_[w] + 1 < kMostStale)
-      n_stale_[w] = static_cast<std::uint8_t>(n_stale_[w] + 1);
+    if (lazy && heap_.contains(w) && may_wait(w))
+      n_stale_[w] = kFalls ? static_cast<std::uint8_t>(n_stale_[w] + 1) : 1;
     else if (all)
       choose(w);
     else
       update(w, u, v);
   }
+
+  bool may_wait(std::uint32_t w) const { return !kFalls || n_stale_[w] + 1 < kMostStale; }
 
   void update(std::uint32_t w, std::uint32_t u, std::uint32_t v) {
     if (!heap_.contains(w) || target_[w] == u || target_[w] == v) return choose(w);
