@@ -258,6 +258,10 @@ void remark_scene_keys(const JsonCursor& root, Remarks& remarks) {
       remark_unknown_keys(root.at(array).at(i), what, known, &remarks);
   };
   each("materials", "a material", kMaterial);
+  const JsonCursor materials = root.at("materials");
+  for (std::size_t i = 0; i < materials.size(); ++i)
+    add_remark(&remarks, "pictures of materials (base_color_texture), not drawn yet",
+               !materials.at(i).at("base_color_texture").value().is_null());
   each("meshes", "a mesh", kMesh);
   each("objects", "an object", kObject);
 }

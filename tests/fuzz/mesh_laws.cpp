@@ -41,7 +41,9 @@ double tolerance_of(const TriMesh& mesh) {
   for (std::size_t v = 0; v < mesh.positions.size(); ++v) box.add(place_of(mesh, v));
   const auto largest = [](const glm::dvec3& p) { return std::max({p.x, p.y, p.z}); };
   const double reach = largest(glm::max(glm::abs(box.lo), glm::abs(box.hi)));
-  return 1e-5 * largest(box.size()) + 1e-9 * reach;
+  // The shortest number that reads back to a float is a double nearby, which a mesh of one place
+  // has its offset at.
+  return 1e-5 * largest(box.size()) + (box.size() == glm::dvec3(0) ? 1e-7 : 1e-9) * reach;
 }
 
 void hold_same_places(const TriMesh& a, const TriMesh& b) {
