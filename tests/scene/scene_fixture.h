@@ -17,8 +17,7 @@ inline Scene make_small_scene() {
   scene.name = "small";
   scene.area = {{-10, -20}, {30, 40.5}};
   scene.ground_z = -0.25;
-  scene.materials = {{"stone", {0.1f, 0.48f, 1}, "", false},
-                     {"glass", {0, 0, 0.3f}, "g.png", true}};
+  scene.materials = {{"stone", {0.1f, 0.48f, 1}, "", false}, {"glass", {0, 0, 0.3f}, "", true}};
   scene.meshes.resize(2);
   scene.meshes[0].name = "cube", scene.meshes[0].file = "meshes/cube.ply";
   scene.meshes[1].name = "tall", scene.meshes[1].file = "tall.off";

@@ -15,6 +15,7 @@ namespace {
 
 TEST(Scene, WhatWasWrittenIsReadBackBitForBit) {
   SmallSceneFolder small;
+  small.json()["materials"][1]["base_color_texture"] = "g.png";
   const auto file = small.write();
   const Scene read = read_scene(file);
   EXPECT_EQ(format_json(format_scene(read, {{"tool", "test"}})), read_file(file));
@@ -26,6 +27,9 @@ TEST(Scene, WhatWasWrittenIsReadBackBitForBit) {
   EXPECT_EQ(read.meshes[1].substitutes, "a tower");
   EXPECT_EQ(read.lighting.toward_light, small.scene().lighting.toward_light);
   EXPECT_EQ(read.ground_z, -0.25);
+  ASSERT_EQ(read.remarks.size(), 1u);
+  EXPECT_EQ(read.remarks[0].remarks.at(0).what,
+            "pictures of materials (base_color_texture), not drawn yet");
 }
 
 TEST(Scene, MeshesComeUprightScaledAndWithNormals) {
