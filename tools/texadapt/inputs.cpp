@@ -154,6 +154,11 @@ void check_all_charts(const TexadaptArguments& a, TexadaptInputs& in) {
     const ChartFindings findings = find_charts_of(a, in, picture);
     const std::string of = picture.of.empty() ? "" : picture.of + ": ";
     check_obstacle(a.pm, of, findings, allows_overlap);
+    if (a.engine == AdaptEngine::rebake && a.onto.empty() && findings.n_elsewhere == 0)
+      add_remark(
+          &in.shown.remarks,
+          "corners outside the picture, where --engine rebake makes no texels (cpu and gl do)",
+          findings.n_outside);
     if (!in.charts.empty() && !in.charts.ends_with('\n')) in.charts += '\n';
     in.charts += of + describe(findings);
   }
