@@ -60,7 +60,7 @@ std::uint64_t parse_count(std::string_view word, const char* what, const TextCur
 }
 
 // Lines with a word that are left, up to so many.
-std::uint64_t count_lines(TextCursor text, std::uint64_t most) {
+std::uint64_t count_rows(TextCursor text, std::uint64_t most) {
   std::uint64_t n = 0;
   for (; n < most && !text.at_end(); text.skip_line()) ++n;
   return n;
@@ -88,7 +88,7 @@ OffHeader parse_header(TextCursor& text) {
   else
     text.skip_line();
   const std::uint64_t n_rows = header.n_vertices + header.n_faces;
-  header.is_one_line = header.is_one_line || count_lines(text, n_rows) < n_rows;
+  header.is_one_line = header.is_one_line || count_rows(text, n_rows) < n_rows;
   return header;
 }
 
