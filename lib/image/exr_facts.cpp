@@ -64,6 +64,12 @@ std::optional<PictureFacts> exr_facts(std::string_view bytes) {
     if ((version & kNoScanLines) == 0 && part.height_px > 0)
       facts.least_bytes += static_cast<std::uint64_t>(part.height_px) / 256 * 8;
   } while ((version & kSeveralParts) != 0 && i < bytes.size() && bytes[i] != '\0');
+  // OpenEXR makes room for rows when it opens a file. No compression that is a law
+  // (memory_input.cpp) makes more than 2,064 bytes of one, of two or more a pixel.
+  constexpr std::uint64_t kFree = 1 << 20, kPixelsPerByte = 4096;
+  const std::uint64_t n_pixels = area_of(facts.width_px, facts.height_px);
+  if (n_pixels > kFree)
+    facts.least_bytes = std::max(facts.least_bytes, (n_pixels - kFree) / kPixelsPerByte);
   return facts;
 }
 

@@ -314,6 +314,22 @@ TEST(PictureBombs, TiffAndExr) {
   }
 }
 
+// Rows of 67 million pixels: before OpenEXR makes room for one.
+TEST(PictureBombs, ExrOfLongRows) {
+  const TemporaryFolder folder;
+  const auto file = (folder / "a.exr").string();
+  const auto output = OIIO::ImageOutput::create(file);
+  ASSERT_TRUE(output->open(file, OIIO::ImageSpec(4, 1, 3, OIIO::TypeHalf)));
+  const std::vector<std::uint8_t> samples(12);
+  ASSERT_TRUE(output->write_image(OIIO::TypeUInt8, samples.data()));
+  output->close();
+  std::string bytes = read_file(file);
+  bytes.replace(bytes.find("dataWindow") + 11 + 6 + 4 + 8, 4, le32(67108868));
+  const Costs before = costs_now();
+  EXPECT_INPUT_ERROR(decode(bytes), "67108869 x 1 pixels");
+  EXPECT_LT(costs_now().memory_kib - before.memory_kib, 32 * 1024);
+}
+
 TEST(PictureFormats, BmpOfOtherMasksIsRefused) {
   const std::string pixels(3 * 2 * 4, '\x40');
   const auto with = [&](std::uint32_t r, std::uint32_t g, std::uint32_t b) {
