@@ -19,18 +19,11 @@ namespace {
 
 using Names = std::array<const char*, 3>;
 
-std::string small(std::string text) {
-  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return text;
-}
-
-// A property by its name in small letters.
-const PlyColumn* find_small(const PlyDocument& ply, const char* element, const char* name) {
+// A property that is no list.
+const PlyColumn* find_number(const PlyDocument& ply, const char* element, const char* name) {
   const PlyElement* found = ply.find(element);
-  if (found == nullptr) return nullptr;
-  for (const PlyColumn& column : found->columns)
-    if (!column.is_list && small(column.name) == name) return &column;
-  return nullptr;
+  const PlyColumn* column = found == nullptr ? nullptr : found->find(name);
+  return column == nullptr || column->is_list ? nullptr : column;
 }
 
 bool has_all(const PlyDocument& ply, std::initializer_list<const char*> properties) {
@@ -127,11 +120,11 @@ ColorColumns read_channels(const PlyDocument& ply, const Names& names) {
   ColorColumns out;
   double most = 0;
   for (std::size_t k = 0; k < 3; ++k) {
-    out.channels[k] = read_channel(ply, *find_small(ply, "vertex", names[k]));
+    out.channels[k] = read_channel(ply, *find_number(ply, "vertex", names[k]));
     for (const double value : out.channels[k])
       if (value <= std::numeric_limits<float>::max()) most = std::max(most, value);
   }
-  const PlyType type = find_small(ply, "vertex", names[0])->type();
+  const PlyType type = find_number(ply, "vertex", names[0])->type();
   const bool is_byte = type == PlyType::kInt8 || type == PlyType::kUint8;
   if (type >= PlyType::kFloat)
     out.full = full_color(static_cast<float>(most));
@@ -144,7 +137,7 @@ ColorColumns read_channels(const PlyDocument& ply, const Names& names) {
 // Of the vertices that are not opaque.
 std::size_t count_translucent(const PlyDocument& ply) {
   for (const char* name : {"alpha", "a", "diffuse_alpha"})
-    if (const PlyColumn* column = find_small(ply, "vertex", name)) {
+    if (const PlyColumn* column = find_number(ply, "vertex", name)) {
       const std::vector<double> values = read_channel(ply, *column);
       double most = 0;
       for (const double value : values) most = std::max(most, value);
@@ -166,8 +159,9 @@ std::vector<glm::vec3> read_colors(const PlyDocument& ply, Remarks* remarks) {
   static constexpr Names kNames[] = {
       {"red", "green", "blue"}, {"r", "g", "b"}, {"diffuse_red", "diffuse_green", "diffuse_blue"}};
   const auto has = [&](const char* element, const Names& names) {
-    return std::all_of(names.begin(), names.end(),
-                       [&](const char* name) { return find_small(ply, element, name) != nullptr; });
+    return std::all_of(names.begin(), names.end(), [&](const char* name) {
+      return find_number(ply, element, name) != nullptr;
+    });
   };
   for (const Names& names : kNames) {
     if (!has("vertex", names)) continue;

@@ -150,7 +150,7 @@ class CollapseLoop {
   }
   static constexpr int kReach = reach();
   // A lazy key that is too high would never come up: costs into optimal positions fall, too, when
-  // what is around them is gone, and are looked at again after so many changes.
+  // what is around them is gone, and are looked at again after kMostStale changes.
   static constexpr bool kFalls = kHasPlacement && kReach > 1;
   static constexpr std::uint8_t kMostStale = 8;
 

@@ -53,9 +53,9 @@ struct ChartFindings {
 
 /// mesh must have texture coordinates (NaN is allowed). An overlap counts when it holds a square of
 /// 2 x 2 texel centres: none that is narrower than a texel does. A chart repeats when it is wider
-/// than the picture, lies beside it, or reaches more than a tenth out of it, and no whole tiles
-/// move it there. Where charts lie in other tiles, all but uv_lo and uv_hi is found as if they were
-/// moved back. One thread; O(triangles log triangles + texels covered).
+/// than the picture by more than a fiftieth, lies beside it, or reaches more than a tenth out of
+/// it, and no whole tiles move it there. Where charts lie in other tiles, all but uv_lo and uv_hi
+/// is found as if they were moved back. One thread; O(triangles log triangles + texels covered).
 ChartFindings check_charts(const TriMesh& mesh, int width_px, int height_px);
 
 /// A line that says why no texture can follow a mesh with these charts, or nothing: coordinates

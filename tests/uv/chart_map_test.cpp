@@ -258,8 +258,7 @@ TEST(ChartChecks, TellsOvershootFromRepeat) {
     EXPECT_FALSE(f.is_one_to_one());
   }
   EXPECT_EQ(check({{0, 0}, {1, 0.5f}}).n_outside, 0u);
-  // Half a texel too wide on either side fills the picture.
-  EXPECT_EQ(check({{-0.004f, 0}, {1.008f, 0.5f}}).n_repeating, 0u);
+  EXPECT_EQ(check({{-0.004f, 0}, {1.008f, 0.5f}}).n_repeating, 0u);  // half a texel too wide
   EXPECT_NE(find_obstacle(check({{-0.2f, 0}, half})).find("crosses a side"), std::string::npos);
   EXPECT_NE(find_obstacle(check({{0, 0}, {1.2f, 0.5f}})).find("several places"), std::string::npos);
 }
