@@ -14,6 +14,7 @@ struct GlbSampler {
   int wrap_s = kRepeat, wrap_t = kRepeat;
   int mag_filter = kLinear;
   int min_filter = kLinearMipmapLinear;  ///< or one of 9984 to 9986, too
+  bool is_repeating() const { return wrap_s == kRepeat && wrap_t == kRepeat; }
   auto operator<=>(const GlbSampler&) const = default;
 };
 

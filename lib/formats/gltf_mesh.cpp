@@ -221,8 +221,7 @@ GltfVertices read_gltf_vertices(const GltfAttributes& attributes, const JsonCurs
 void remark_wrapping(const GltfFile& gltf, const Look& look, const GltfVertices& vertices,
                      const std::vector<Triangle>& triangles, Remarks* remarks) {
   if (!look.texture || vertices.texcoords.empty()) return;
-  const GlbSampler sampler = sampler_of(gltf.root(), look.texture->texture);
-  if (sampler.wrap_s == GlbSampler::kRepeat && sampler.wrap_t == GlbSampler::kRepeat) return;
+  if (sampler_of(gltf.root(), look.texture->texture).is_repeating()) return;
   constexpr float kSlack = 1e-4f;
   const auto is_beyond = [&](std::uint32_t v) {
     const glm::vec2& uv = vertices.texcoords[v];

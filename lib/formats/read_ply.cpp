@@ -1,7 +1,6 @@
 // PLY documents as triangle meshes.
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <limits>
 #include <optional>

@@ -98,12 +98,8 @@ std::string describe_moves(const ChartFindings& findings) {
 // Whether materials show the picture repeated, where they say how.
 bool is_repeated(const ShownPictures& shown, const ShownPicture& picture) {
   const auto id = static_cast<int>(&picture - shown.pictures.data());
-  for (std::size_t m = 0; m < shown.looks.size(); ++m) {
-    const GlbSampler& sampler = shown.looks[m].color_sampler;
-    if (shown.picture_of[m] == id &&
-        (sampler.wrap_s != GlbSampler::kRepeat || sampler.wrap_t != GlbSampler::kRepeat))
-      return false;
-  }
+  for (std::size_t m = 0; m < shown.looks.size(); ++m)
+    if (shown.picture_of[m] == id && !shown.looks[m].color_sampler.is_repeating()) return false;
   return true;
 }
 
