@@ -91,12 +91,10 @@ bool CollapseMap::locate_all(std::uint32_t v, const glm::dvec3& apex,
 bool CollapseMap::locate_at(const Sector& sector, std::span<const CollapseStar::Rim> rim,
                             std::size_t i, const glm::dvec3& apex,
                             std::vector<Location>& to) const {
-  to.push_back({.sector = &sector,
-                .rim = rim,
-                .step = sector.is_closed || i == 0 ? 1 : -1,
-                .v = i,
-                .apex = apex});
-  return choose_face(to.back());
+  Location& location = to.emplace_back(sector, rim, apex);
+  location.step = sector.is_closed || i == 0 ? 1 : -1;
+  location.v = i;
+  return choose_face(location);
 }
 
 // In the texture it goes where a fan of its chart goes that v is in; without one u would leave the
@@ -104,8 +102,8 @@ bool CollapseMap::locate_at(const Sector& sector, std::span<const CollapseStar::
 bool CollapseMap::locate_moved(const Sector& sector, std::uint32_t v, const glm::dvec3& apex,
                                std::vector<Location>& to) const {
   if (matching_ == Matching::texture) return false;
-  to.push_back({.sector = &sector, .rim = sector.rim, .is_moved = true, .apex = apex});
-  Location& location = to.back();
+  Location& location = to.emplace_back(sector, sector.rim, apex);
+  location.is_moved = true;
   const CollapseStar::Rim* met = nullptr;
   for (const Sector& other : star_.sectors())
     if (other.chart == sector.chart)
@@ -153,23 +151,30 @@ void CollapseMap::choose_on_edge(Location& location) const {
 // The new face that u's texture coordinates lie in, or the one that they are least outside of.
 void CollapseMap::choose_by_texture(Location& location) const {
   const Walk rim{location.rim, location.v, location.step};
-  double best = -kInfinity;
-  const CollapseStar::Rim& v = rim[0];
+  double best = -kInfinity, area_there = 0;
+  glm::dvec3 there(0);  // weights of its corners, times its area
+  const CollapseStar::Rim &v = rim[0], *b = &rim[1];
+  glm::dvec2 to_b = b->uv - v.uv;
+  double weight_c = glm::cross(v.uv, b->uv);
   for (std::size_t j = 1; j + 1 < location.rim.size(); ++j) {
-    const CollapseStar::Rim &b = rim[j], &c = rim[j + 1];
-    const double area = glm::cross(b.uv - v.uv, c.uv - v.uv);
+    const CollapseStar::Rim* c = &rim[j + 1];
+    const glm::dvec2 to_c = c->uv - v.uv;
+    const double area = glm::cross(to_b, to_c), weight_b = glm::cross(c->uv, v.uv);
+    const glm::dvec3 w(glm::cross(b->uv, c->uv), weight_b, weight_c);
+    b = c, to_b = to_c, weight_c = -weight_b;  // of the next face
     if (area == 0) continue;
-    glm::dvec3 w(glm::cross(b.uv, c.uv), glm::cross(c.uv, v.uv), glm::cross(v.uv, b.uv));
     const double least = area > 0 ? std::min({w.x, w.y, w.z}) : -std::max({w.x, w.y, w.z});
     if (!(least > best * std::abs(area))) continue;
     best = least / std::abs(area);
     location.middle = j;
-    w /= area;
-    w = glm::max(w, glm::dvec3(0));
-    w /= w.x + w.y + w.z;
-    location.after = {w.x * location.apex + w.y * b.to + w.z * c.to,
-                      w.x * v.uv + w.y * b.uv + w.z * c.uv};
+    there = w, area_there = area;
   }
+  if (area_there == 0) return;
+  const CollapseStar::Rim &left = rim[location.middle], &right = rim[location.middle + 1];
+  glm::dvec3 w = glm::max(there / area_there, glm::dvec3(0));
+  w /= w.x + w.y + w.z;
+  location.after = {w.x * location.apex + w.y * left.to + w.z * right.to,
+                    w.x * v.uv + w.y * left.uv + w.z * right.uv};
 }
 
 void CollapseMap::choose_by_distance(Location& location) const {

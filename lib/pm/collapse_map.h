@@ -86,6 +86,8 @@ class CollapseMap {
   // Where u goes in one sector, or one side of v in it: into the new face (v, rim middle, rim
   // middle + 1), counted from v.
   struct Location {
+    Location(const Sector& of, std::span<const CollapseStar::Rim> its_rim, const glm::dvec3& at)
+        : sector(&of), rim(its_rim), apex(at) {}
     const Sector* sector;
     std::span<const CollapseStar::Rim> rim;  // the sector's, or one side's
     bool is_moved = false;                   // v is not in the sector, which keeps its faces
@@ -93,7 +95,7 @@ class CollapseMap {
     std::size_t v = 0;                       // of the rim
     std::size_t middle = 0;
     std::uint32_t face = 0;
-    glm::dvec3 apex{0};     // v, relative to u
+    glm::dvec3 apex;        // v, relative to u
     glm::dvec2 apex_uv{0};  // of sectors that are moved
     FanPoint after{};       // the point of the new surface for u
   };

@@ -12,10 +12,10 @@ bool CollapseStar::gather(std::uint32_t u) {
   const bool has_charts = !texcoords_.empty() || wedges_.has_regions();
   mesh_.for_each_sheet_corner(u, [&](std::uint32_t c) {
     const std::uint32_t k = c % 3, a = c + 1 - 3 * (k == 2), b = c - 1 + 3 * (k == 0);
-    const std::uint32_t wedge = wedges_.at(c);
-    spokes_.push_back({c / 3, mesh_.vertex_at(a), mesh_.vertex_at(b),
-                       has_charts ? wedges_.chart_vertex(wedge) : 0, wedge, wedges_.at(a),
-                       wedges_.at(b)});
+    Spoke& spoke = spokes_.emplace_back();
+    spoke.face = c / 3, spoke.a = mesh_.vertex_at(a), spoke.b = mesh_.vertex_at(b);
+    spoke.wedge_u = wedges_.at(c), spoke.wedge_a = wedges_.at(a), spoke.wedge_b = wedges_.at(b);
+    spoke.chart = has_charts ? wedges_.chart_vertex(spoke.wedge_u) : 0;
   });
   // by texture chart; the order within does not matter
   const auto chart_before = [](const Spoke& x, const Spoke& y) { return x.chart < y.chart; };
@@ -34,11 +34,9 @@ bool CollapseStar::gather(std::uint32_t u) {
 
 // from_b: the rim goes from b to a.
 void CollapseStar::push_rim(const Spoke& spoke, bool from_b) {
-  rim_.push_back({from_b ? spoke.b : spoke.a,
-                  from_b ? spoke.wedge_b : spoke.wedge_a,
-                  static_cast<std::uint32_t>(faces_.size()),
-                  {},
-                  {}});
+  Rim& rim = rim_.emplace_back();
+  rim.vertex = from_b ? spoke.b : spoke.a, rim.wedge = from_b ? spoke.wedge_b : spoke.wedge_a;
+  rim.face = static_cast<std::uint32_t>(faces_.size());
   faces_.push_back(spoke.face);
 }
 

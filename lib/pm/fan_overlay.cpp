@@ -68,10 +68,9 @@ void FanOverlay::start(const FanPoint& new_apex, const glm::dvec2& origin, bool 
 }
 
 void FanOverlay::add_ray(const FanPoint& corner, std::uint32_t face) {
-  const Double4 to = make_double4(corner.at), from_apex = to - apex_;
-  rays_.push_back({to, from_apex, dot(to, to), dot(from_apex, from_apex), dot(to, apex_),
-                   dot(from_apex, apex_), corner.texture, face,
-                   keep_.texture ? add_point(corner.texture, corner.texture) : kNone});
+  Ray& ray = rays_.emplace_back(corner, apex_, face);
+  if (keep_.texture) ray.point = add_point(corner.texture, corner.texture);
+  if (matching_ == Matching::nearest) ray.set_nearest(apex_);
 }
 
 std::uint32_t FanOverlay::add_point(const glm::dvec2& before, const glm::dvec2& after) {

@@ -79,13 +79,24 @@ class FanOverlay {
   struct Around {  // of a cell; of a triangle, c and d are the same
     const Corner &a, &b, &c, &d;
   };
+  // Made in place: a copy would wait until its numbers, stored one by one, are in memory.
   struct Ray {
-    Double4 to, from_apex;     // relative to the old and to the new apex
-    double to2, from_apex2;    // squared lengths
-    double to_a, from_apex_a;  // dot products with the new apex
+    Ray(const FanPoint& corner, const Double4& apex, std::uint32_t face_in)
+        : to(make_double4(corner.at)),
+          from_apex(to - apex),
+          from_apex2(dot(from_apex, from_apex)),
+          texture(corner.texture),
+          face(face_in) {}
+    // What Matching::nearest asks for besides.
+    void set_nearest(const Double4& apex) {
+      to2 = dot(to, to), to_a = dot(to, apex), from_apex_a = dot(from_apex, apex);
+    }
+    Double4 to, from_apex;             // relative to the old and to the new apex
+    double from_apex2, to2 = 0;        // squared lengths
+    double to_a = 0, from_apex_a = 0;  // dot products with the new apex
     glm::dvec2 texture;
     std::uint32_t face;
-    std::uint32_t point;  // in the texture
+    std::uint32_t point = kNone;  // in the texture
   };
   Corner cross(const Ray& old_edge, const Ray& new_edge);
   Corner old_apex(const FanPoint& after);

@@ -391,7 +391,9 @@ void WedgeTable::gather_from(const CollapseMesh& mesh, std::uint32_t u) {
   const auto push = [&](std::uint32_t c) {
     const std::uint32_t k = c % 3, a = c + 1 - 3 * (k == 2), b = c - 1 + 3 * (k == 0);
     const std::uint32_t wedge = corners_[c];
-    spokes_.push_back({wedge, mesh.vertex_at(a), mesh.vertex_at(b), corners_[a], corners_[b]});
+    Spoke& spoke = spokes_.emplace_back();  // in place: a copy would wait for its numbers
+    spoke.wedge_u = wedge, spoke.a = mesh.vertex_at(a), spoke.b = mesh.vertex_at(b);
+    spoke.wedge_a = corners_[a], spoke.wedge_b = corners_[b];
     if (std::find(from_wedges_.begin(), from_wedges_.end(), wedge) == from_wedges_.end())
       from_wedges_.push_back(wedge);
   };
