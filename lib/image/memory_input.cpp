@@ -126,14 +126,23 @@ void remark_spec(MemoryInput& picture, const std::string& file, Remarks* remarks
 
 }  // namespace
 
+std::size_t BoundedReader::pread(void* to, std::size_t n, std::int64_t place) {
+  if (place < 0 || static_cast<std::uint64_t>(place) >= n_bytes_) return 0;
+  return IOMemReader::pread(to, std::min(n, n_bytes_ - static_cast<std::size_t>(place)), place);
+}
+
+std::size_t BoundedReader::read(void* to, std::size_t n) {
+  const std::size_t n_read = pread(to, n, tell());
+  seek(tell() + static_cast<std::int64_t>(n_read));
+  return n_read;
+}
+
 MemoryInput open_memory(std::string_view bytes, const std::string& file, const ImageLimits& limits,
                         Remarks* remarks) {
   configure_openimageio();
   MemoryInput picture;
   picture.format = check_image_header(bytes, file, limits, remarks);
-  // The reader only reads; its parameter is not const.
-  picture.memory = std::make_unique<OIIO::Filesystem::IOMemReader>(const_cast<char*>(bytes.data()),
-                                                                   bytes.size());
+  picture.memory = std::make_unique<BoundedReader>(bytes);
   picture.input = OIIO::ImageInput::create(name_of(picture.format), false);
   if (!picture.input || !picture.input->set_ioproxy(picture.memory.get()))
     throw MachineError(std::string("OpenImageIO cannot read ") + name_of(picture.format));

@@ -18,12 +18,26 @@ namespace viewcell {
 /// The largest picture file that is read.
 inline constexpr std::uint64_t kMaxImageFileBytes = 1ULL << 31;
 
+/// Reads nothing from outside its bytes. IOMemReader (2.4.7) adds a place to a size without asking
+/// for its sign: a chunk of an EXR at -1 is read from before them.
+class BoundedReader : public OIIO::Filesystem::IOMemReader {
+ public:
+  /// Only reads, though the library's parameter is not const.
+  explicit BoundedReader(std::string_view bytes)
+      : IOMemReader(const_cast<char*>(bytes.data()), bytes.size()), n_bytes_(bytes.size()) {}
+  std::size_t pread(void* to, std::size_t n, std::int64_t place) override;
+  std::size_t read(void* to, std::size_t n) override;
+
+ private:
+  std::size_t n_bytes_;
+};
+
 /// The first picture of a file. Its members die in the right order: the input reads from the
 /// memory.
 struct MemoryInput {
   ImageFormat format = ImageFormat::png;
   OIIO::ImageSpec spec;
-  std::unique_ptr<OIIO::Filesystem::IOMemReader> memory;
+  std::unique_ptr<BoundedReader> memory;
   std::unique_ptr<OIIO::ImageInput> input;
 };
 

@@ -12,6 +12,7 @@
 #include "common/mutate.h"
 #include "common/temporary_folder.h"
 #include "image/io.h"
+#include "image/memory_input.h"
 
 namespace viewcell {
 namespace {
@@ -328,6 +329,38 @@ TEST(PictureBombs, ExrOfLongRows) {
   const Costs before = costs_now();
   EXPECT_INPUT_ERROR(decode(bytes), "67108869 x 1 pixels");
   EXPECT_LT(costs_now().memory_kib - before.memory_kib, 32 * 1024);
+}
+
+// A chunk that the table has before the file's first byte.
+TEST(PictureFormats, ExrChunksLieInTheFile) {
+  const TemporaryFolder folder;
+  const auto file = (folder / "a.exr").string();
+  OIIO::ImageSpec spec(4, 1, 3, OIIO::TypeHalf);
+  spec.attribute("compression", "none");
+  const auto output = OIIO::ImageOutput::create(file);
+  ASSERT_TRUE(output->open(file, spec));
+  const std::vector<std::uint8_t> samples(12);
+  ASSERT_TRUE(output->write_image(OIIO::TypeUInt8, samples.data()));
+  output->close();
+  const std::string bytes = read_file(file);
+  // At the end: a table of one place, then the chunk: row, size, 24 bytes of samples.
+  const std::size_t table = bytes.size() - 8 - 8 - 24;
+  for (const std::uint32_t place : {0xffffffffu, 0xfffffffdu, 0x80000000u}) {
+    std::string bad = bytes;
+    bad.replace(table, 8, le32(place) + le32(0xffffffffu));
+    EXPECT_INPUT_ERROR(decode(bad), "");
+  }
+  BoundedReader reader("0123456789");
+  char to[16] = {};
+  for (const std::int64_t place : {-1, -4, -16, 10, 11})
+    EXPECT_EQ(reader.pread(to, 4, place), 0u) << place;
+  EXPECT_EQ(reader.pread(to, 16, 7), 3u);
+  EXPECT_TRUE(reader.seek(-2));
+  EXPECT_EQ(reader.read(to, 4), 0u);
+  EXPECT_TRUE(reader.seek(4));
+  EXPECT_EQ(reader.read(to, 4), 4u);
+  EXPECT_EQ(std::string(to, 4), "4567");
+  EXPECT_EQ(reader.tell(), 8);
 }
 
 TEST(PictureFormats, BmpOfOtherMasksIsRefused) {
