@@ -59,7 +59,7 @@ ViewVertices place_vertices(const TriMesh& mesh, const SceneObject& object) {
 std::vector<bool> find_back_faces(const BakeScene& bake, CellId cell, const SceneObject& object,
                                   const std::vector<glm::vec3>& positions,
                                   const std::vector<Triangle>& triangles) {
-  if (bake.scene.material_of(object).double_sided)
+  if (bake.scene.is_double_sided(object))
     return std::vector<bool>(triangles.size(), false);  // both sides are seen
   return find_regional_back_faces(positions, triangles, prism_of(bake.cells, cell));
 }
@@ -68,7 +68,7 @@ FaceSides find_sides(const BakeScene& bake, CellId cell, const SceneObject& obje
                      const StartLevel& level, const std::vector<glm::vec3>& positions) {
   FaceSides out{find_back_faces(bake, cell, object, positions, level.mesh.triangles),
                 level.is_twin};
-  if (bake.scene.material_of(object).double_sided)
+  if (bake.scene.is_double_sided(object))
     out.is_two_sided.assign(level.mesh.triangles.size(), true);
   for (std::size_t t = 0; t < out.is_two_sided.size(); ++t)
     if (out.is_two_sided[t]) out.is_back_facing[t] = false;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <mutex>
+#include <set>
 
 #include "bake/pack_inputs.h"
 #include "base/error.h"
@@ -151,6 +152,12 @@ void copy_inputs(const Scene& scene, const CellSet& cells, const PackInputs& inp
   for (const SceneMesh& mesh : scene.meshes) {
     const fs::path file = resolve_inside(inputs.scene_file, "meshes", mesh.file);
     writer.write_copy(mesh.file, read_unchanged(file, mesh.hash), mesh.hash);
+  }
+  std::set<std::string> copied;  // a picture of two cutoffs stands there twice
+  for (const ScenePicture& picture : scene.pictures) {
+    if (!copied.insert(picture.file).second) continue;
+    const fs::path file = resolve_inside(inputs.scene_file, "materials", picture.file);
+    writer.write_copy(picture.file, read_unchanged(file, picture.hash), picture.hash);
   }
   writer.write_copy("scene.json", read_unchanged(inputs.scene_file, scene.file_hash));
   writer.write_copy("cells.json", read_unchanged(inputs.cells_file, cells.file_hash));

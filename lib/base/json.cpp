@@ -141,7 +141,7 @@ Json parse_json(const std::string& text, const std::filesystem::path& file) {
   }
 }
 
-Json read_json(const std::filesystem::path& file, const std::string& format, int version,
+Json read_json(const std::filesystem::path& file, const std::string& format, JsonVersions versions,
                const std::string& remedy, std::string* hash) {
   const std::string text = read_file(file, 1u << 30);
   if (hash != nullptr) *hash = hash_hex(text);
@@ -151,9 +151,12 @@ Json read_json(const std::filesystem::path& file, const std::string& format, int
   if (!root.has("format") || root.at("format").value() != format)
     root.fail("\"format\" is not \"" + format + "\"");
   const auto found = root.at("version").integer(0, 1 << 30);
-  if (found != version)
-    root.at("version").fail("version " + std::to_string(found) + ", this tool reads version " +
-                            std::to_string(version) + (remedy.empty() ? "" : ": " + remedy));
+  if (found < versions.first || found > versions.last)
+    root.at("version").fail(
+        "version " + std::to_string(found) + ", this tool reads version " +
+        std::to_string(versions.first) +
+        (versions.last > versions.first ? " to " + std::to_string(versions.last) : "") +
+        (remedy.empty() ? "" : ": " + remedy));
   return json;
 }
 

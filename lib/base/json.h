@@ -18,9 +18,16 @@ using Json = nlohmann::ordered_json;
 /// InputError with the line and the column (in bytes, from 1) at fault.
 Json parse_json(const std::string& text, const std::filesystem::path& file);
 
+/// Versions of a format that are read: one, or first to last.
+struct JsonVersions {
+  JsonVersions(int only) : first(only), last(only) {}
+  JsonVersions(int first_in, int last_in) : first(first_in), last(last_in) {}
+  int first, last;
+};
+
 /// Reads and parses a file of ours: "format" and "version" must be the ones given. remedy: what to
 /// do about a file of another version. hash: hash_hex of the bytes that were parsed, if wanted.
-Json read_json(const std::filesystem::path& file, const std::string& format, int version,
+Json read_json(const std::filesystem::path& file, const std::string& format, JsonVersions versions,
                const std::string& remedy = "", std::string* hash = nullptr);
 
 /// Two-space indentation, arrays of numbers on one line, a newline at the end.

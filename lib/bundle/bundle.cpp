@@ -8,6 +8,7 @@
 #include "bundle/bundle_checks.h"
 #include "bundle/manifest.h"
 #include "image/bc.h"
+#include "scene/pictures.h"
 
 namespace viewcell {
 namespace fs = std::filesystem;
@@ -88,6 +89,11 @@ void check_scene(const Scene& scene, const BundleManifest& manifest, const fs::p
     if (packed == manifest.files.end() || packed->second != mesh.hash)
       throw InputError((bake / mesh.file).string(), "", kChanged);
   }
+  for (const ScenePicture& picture : scene.pictures) {
+    const auto packed = manifest.files.find(picture.file);
+    if (packed == manifest.files.end() || packed->second != picture.hash)
+      throw InputError((bake / picture.file).string(), "", kChanged);
+  }
   if (scene.hash != manifest.scene_hash)
     throw InputError((bake / "scene.json").string(), "", kChanged);
 }
@@ -116,6 +122,7 @@ Bundle::Bundle(const fs::path& folder, const ReadSceneOptions& options)
   for (const char* name : {"scene.json", "cells.json"}) refuse_special(bake_ / name);
   scene_ = read_scene(bake_ / "scene.json", options);
   check_scene(scene_, manifest_, bake_);
+  if (options.with_meshes) load_pictures(bake_ / "scene.json", scene_, {}, options.n_threads);
   cells_ = read_cells(bake_ / "cells.json");
   check_cells(cells_, manifest_, folder / kManifestName, bake_ / "cells.json");
   check_cells_of_scene(cells_, scene_, bake_ / "cells.json");

@@ -1,13 +1,16 @@
 // The `gl` engine: captures by rasterising one object at a time.
 #pragma once
 
+#include <map>
 #include <optional>
+#include <tuple>
 #include <vector>
 
 #include "capture/tile.h"
 #include "gl/framebuffer.h"
 #include "gl/objects.h"
 #include "scene/scene.h"
+#include "scene/surface.h"
 
 namespace viewcell {
 
@@ -17,8 +20,9 @@ namespace viewcell {
 /// GlContext.
 class RasterCapture {
  public:
-  /// gl and scene must outlive this. Meshes are uploaded when first captured (24 bytes a vertex,
-  /// 12 a triangle) and stay.
+  /// gl and scene must outlive this; its pictures must be loaded (scene/pictures.h). Meshes are
+  /// uploaded when first captured (24 bytes a vertex, 44 with pictures or colours, 12 a triangle),
+  /// as pictures are, and stay.
   RasterCapture(const Gl& gl, const Scene& scene);
 
   /// The nearest front-facing (or double-sided) triangle of that object alone at every pixel
@@ -29,18 +33,22 @@ class RasterCapture {
 
  private:
   struct GpuMesh {
-    GlBuffer vertices, indices;
+    GlBuffer vertices, dressed, indices;
     GlVertexArray array;
-    GLsizei n_indices = 0;
+    std::vector<SlotRange> slots;
   };
 
   const GpuMesh& upload(MeshId mesh);
+  const GlProgram& program_for(const SurfaceKind& kind);
+  const GlTexture& texture_for(const Material& material);
+  void use(const SceneObject& object, const Material& material, const glm::mat4& clip_from_model);
   void draw_block(CaptureTile& tile, const Crop& block);
 
   const Gl& gl_;
   const Scene& scene_;
-  GlProgram program_;
-  std::vector<std::optional<GpuMesh>> meshes_;  // by MeshId
+  std::map<SurfaceKind, GlProgram> programs_;
+  std::map<std::tuple<int, Wrap, Wrap>, GlTexture> textures_;  // by picture and wraps
+  std::vector<std::optional<GpuMesh>> meshes_;                 // by MeshId
 };
 
 /// Clip space from the world for one block of a view's image: clip w is the depth along the view's

@@ -31,6 +31,7 @@ void add_draw(const PlanScene& scene, ObjectId object, int level, FramePlan& pla
   const PlanScene::Mesh& mesh = scene.mesh_of(scene.objects[index(object)]);
   plan.draws.push_back({object, level});
   plan.n_triangles += mesh.levels[static_cast<std::size_t>(level)].n_triangles;
+  plan.n_calls += mesh.levels[static_cast<std::size_t>(level)].n_slots;
 }
 
 }  // namespace
@@ -43,7 +44,7 @@ PlanScene make_plan_scene(const Scene& scene, const std::vector<MeshLevels>& lev
     PlanScene::Mesh& mesh = out.meshes.emplace_back();
     mesh.box = bounding_box(of_mesh[0].mesh);
     for (const MeshLevel& level : of_mesh)
-      mesh.levels.push_back({level.mesh.triangles.size(), level.error});
+      mesh.levels.push_back({level.mesh.triangles.size(), level.error, level.slots.size()});
   }
   return out;
 }

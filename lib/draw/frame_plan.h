@@ -21,6 +21,7 @@ struct ObjectDraw {
 struct FramePlan {
   std::vector<ObjectDraw> draws;  ///< in the order of drawing
   std::size_t n_triangles = 0;    ///< handed to the rasteriser, before it clips and culls
+  std::size_t n_calls = 0;        ///< to draw them: one for each material of an object
 };
 
 /// What plans need to know of a scene: boxes and levels, no vertices.
@@ -28,6 +29,7 @@ struct PlanScene {
   struct Level {
     std::size_t n_triangles = 0;
     double error = 0;  ///< model units
+    std::size_t n_slots = 1;
   };
   struct Mesh {
     Box box;  ///< in model space

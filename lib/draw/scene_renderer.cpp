@@ -1,6 +1,8 @@
 #include "draw/scene_renderer.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <glm/gtc/matrix_transform.hpp>
@@ -10,21 +12,27 @@
 #include "draw/ground.h"
 #include "draw/lit_vertex.h"
 #include "draw/shading.h"
+#include "gl/mip_upload.h"
 
 namespace viewcell {
 namespace {
 
-constexpr const char* kObjectVertex = R"(#version 450 core
-layout(location = 0) in vec3 position;
-layout(location = 1) in vec3 normal;
-uniform mat4 clip_from_model;
-uniform mat3 normal_matrix;
-layout(location = 0) out vec3 normal_world;
-void main() {
-  normal_world = normal_matrix * normal;
-  gl_Position = clip_from_model * vec4(position, 1);
+// What vertices have besides, where some mesh has pictures or colours.
+struct DressedVertex {
+  glm::vec2 texcoord{0};
+  std::array<std::uint16_t, 4> color{65535, 65535, 65535, 0};  // linear; the fourth is padding
+};
+static_assert(sizeof(DressedVertex) == 16);
+
+DressedVertex make_dressed_vertex(const MeshLevel& level, std::size_t v) {
+  DressedVertex out;
+  if (!level.texcoords.empty()) out.texcoord = level.texcoords[v];
+  if (!level.mesh.colors.empty())
+    for (int c = 0; c < 3; ++c)
+      out.color[static_cast<std::size_t>(c)] = static_cast<std::uint16_t>(
+          std::lround(65535 * std::clamp(level.mesh.colors[v][c], 0.0f, 1.0f)));
+  return out;
 }
-)";
 
 constexpr const char* kGroundVertex = R"(#version 450 core
 layout(location = 0) in vec2 position;
@@ -32,14 +40,10 @@ uniform mat4 clip_from_ground;
 void main() { gl_Position = clip_from_ground * vec4(position, 0, 1); }
 )";
 
-std::string object_fragment(const Lighting& lighting, bool double_sided) {
-  return "#version 450 core\n"
-         "layout(location = 0) in vec3 normal_world;\n"
-         "layout(location = 0) out vec4 color;\n"
-         "uniform vec3 base_color;\n" +
-         make_shading_glsl(lighting) + "void main() {\n  vec3 n = normalize(normal_world);\n" +
-         (double_sided ? "  if (!gl_FrontFacing) n = -n;\n" : "") +
-         "  color = vec4(srgb_encode(shade(base_color, n)), 1);\n}\n";
+std::string object_fragment(const Lighting& lighting, const SurfaceKind& kind) {
+  return "#version 450 core\nlayout(location = 0) out vec4 color;\n" + make_shading_glsl(lighting) +
+         surface_fragment_glsl(kind) +
+         "void main() { color = vec4(srgb_encode(surface_color()), 1); }\n";
 }
 
 std::string ground_fragment(const Lighting& lighting) {
@@ -54,16 +58,8 @@ SceneRenderer::SceneRenderer(const Gl& gl, const Scene& scene,
                              const std::vector<MeshLevels>& levels)
     : gl_(gl), array_(gl), ground_array_(gl) {
   VIEWCELL_CHECK(levels.size() == scene.meshes.size(), levels.size(), scene.meshes.size());
-  for (const SceneObject& object : scene.objects) {
-    const Material& material = scene.material_of(object);
-    scene_objects_.push_back(&object);
-    objects_.push_back({object.matrix_world_from_model(),
-                        glm::mat3(glm::mat3_cast(object.rotation)), material.base_color,
-                        object.mesh, material.double_sided});
-  }
+  for (const SceneObject& object : scene.objects) add_object(scene, object);
   upload(levels);
-  single_sided_ = make_program(scene.lighting, false);
-  double_sided_ = make_program(scene.lighting, true);
   ground_program_ = GlProgram(gl, "ground", kGroundVertex, ground_fragment(scene.lighting));
   const std::array<glm::vec2, 4> corners{
       glm::vec2(-kGroundReach, -kGroundReach), glm::vec2(kGroundReach, -kGroundReach),
@@ -77,42 +73,96 @@ SceneRenderer::SceneRenderer(const Gl& gl, const Scene& scene,
   check_gl(gl, "making the scene renderer");
 }
 
+void SceneRenderer::add_object(const Scene& scene, const SceneObject& object) {
+  scene_objects_.push_back(&object);
+  Object& out = objects_.emplace_back();
+  out.world_from_model = object.matrix_world_from_model();
+  out.rotation = glm::mat3(glm::mat3_cast(object.rotation));
+  out.mesh = object.mesh;
+  const SceneMesh& mesh = scene.mesh_of(object);
+  for (std::size_t slot = 0; slot < mesh.n_slots; ++slot) {
+    const Material& material = scene.material_of(object, slot);
+    const SurfaceKind kind = surface_kind(material, mesh);
+    out.looks.push_back({&material, &program_for(scene.lighting, kind),
+                         &program_for(scene.lighting, {.is_double_sided = kind.is_double_sided}),
+                         kind.has_picture ? texture_for(scene, material) : 0});
+  }
+}
+
+GLuint SceneRenderer::texture_for(const Scene& scene, const Material& material) {
+  const auto [at, is_new] =
+      textures_.try_emplace({material.picture, material.wrap_u, material.wrap_v});
+  if (is_new) at->second = upload_mips(gl_, scene.texture_of(material));
+  return at->second.id();
+}
+
+const SceneRenderer::Program& SceneRenderer::program_for(const Lighting& lighting,
+                                                         const SurfaceKind& kind) {
+  const auto [at, is_new] = programs_.try_emplace(kind);
+  if (!is_new) return at->second;
+  Program& out = at->second;
+  out.program =
+      GlProgram(gl_, "surface", surface_vertex_glsl(kind), object_fragment(lighting, kind));
+  out.is_double_sided = kind.is_double_sided;
+  out.clip_from_model = out.program.uniform("clip_from_model");
+  out.normal_matrix = out.program.uniform("normal_matrix");
+  out.base_color = out.program.uniform("base_color");
+  out.emissive = out.program.uniform("emissive");
+  out.opacity = out.program.uniform("opacity");
+  out.alpha_cutoff = out.program.uniform("alpha_cutoff");
+  return out;
+}
+
 void SceneRenderer::upload(const std::vector<MeshLevels>& levels) {
+  const bool are_dressed = std::any_of(programs_.begin(), programs_.end(), [](const auto& program) {
+    return program.first.has_picture || program.first.has_colors;
+  });
   std::vector<LitVertex> vertices;
+  std::vector<DressedVertex> dressed;
   std::vector<Triangle> triangles;
+  const auto range_at = [&](const SlotRange& slot, GLint first_vertex) {
+    return Range{slot.slot, static_cast<GLsizei>(3 * slot.n_triangles),
+                 (triangles.size() + slot.first_triangle) * sizeof(Triangle), first_vertex};
+  };
   for (const MeshLevels& of_mesh : levels) {
-    std::vector<Range>& ranges = ranges_.emplace_back();
+    auto& ranges = ranges_.emplace_back();
+    const auto first_of_mesh = static_cast<GLint>(vertices.size());
     for (const MeshLevel& level : of_mesh) {
       const TriMesh& mesh = level.mesh;
-      ranges.push_back({static_cast<GLsizei>(3 * mesh.triangles.size()),
-                        triangles.size() * sizeof(Triangle), static_cast<GLint>(vertices.size())});
-      for (std::size_t v = 0; v < mesh.positions.size(); ++v)
+      const auto first = static_cast<GLint>(vertices.size());
+      auto& by_slot = ranges.emplace_back();
+      for (const SlotRange& slot : level.slots) by_slot.push_back(range_at(slot, first));
+      for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
         vertices.push_back(make_lit_vertex(mesh.positions[v], mesh.normals[v]));
+        if (are_dressed) dressed.push_back(make_dressed_vertex(level, v));
+      }
       triangles.insert(triangles.end(), mesh.triangles.begin(), mesh.triangles.end());
     }
-    ClusteredMesh clustered = build_clusters(of_mesh[0].mesh);
-    cluster_ranges_.push_back({static_cast<GLsizei>(3 * clustered.triangles.size()),
-                               triangles.size() * sizeof(Triangle), ranges[0].first_vertex});
-    clusters_.push_back(std::move(clustered.clusters));
-    triangles.insert(triangles.end(), clustered.triangles.begin(), clustered.triangles.end());
+    auto& clusters = clusters_.emplace_back();
+    for (const SlotRange& slot : of_mesh[0].slots) {
+      TriMesh part;
+      part.positions = of_mesh[0].mesh.positions;
+      const auto first =
+          of_mesh[0].mesh.triangles.begin() + static_cast<std::ptrdiff_t>(slot.first_triangle);
+      part.triangles.assign(first, first + static_cast<std::ptrdiff_t>(slot.n_triangles));
+      ClusteredMesh clustered = build_clusters(part);
+      clusters.push_back({range_at({slot.slot, 0, slot.n_triangles}, first_of_mesh),
+                          std::move(clustered.clusters)});
+      triangles.insert(triangles.end(), clustered.triangles.begin(), clustered.triangles.end());
+    }
   }
   vertices_ = make_buffer(gl_, vertices);
+  dressed_ = make_buffer(gl_, dressed);
   indices_ = make_buffer(gl_, triangles);
   gl_.VertexArrayVertexBuffer(array_.id(), 0, vertices_.id(), 0, sizeof(LitVertex));
   gl_.VertexArrayElementBuffer(array_.id(), indices_.id());
   array_.set_attribute(0, 3, GL_FLOAT, GL_FALSE, offsetof(LitVertex, position));
   array_.set_attribute(1, 3, GL_SHORT, GL_TRUE, offsetof(LitVertex, normal));
-}
-
-SceneRenderer::Program SceneRenderer::make_program(const Lighting& lighting,
-                                                   bool double_sided) const {
-  Program out;
-  out.program =
-      GlProgram(gl_, "lit object", kObjectVertex, object_fragment(lighting, double_sided));
-  out.clip_from_model = out.program.uniform("clip_from_model");
-  out.normal_matrix = out.program.uniform("normal_matrix");
-  out.base_color = out.program.uniform("base_color");
-  return out;
+  if (!are_dressed) return;
+  gl_.VertexArrayVertexBuffer(array_.id(), 1, dressed_.id(), 0, sizeof(DressedVertex));
+  array_.set_attribute(kTexcoordPlace, 2, GL_FLOAT, GL_FALSE, offsetof(DressedVertex, texcoord), 1);
+  array_.set_attribute(kColorPlace, 3, GL_UNSIGNED_SHORT, GL_TRUE, offsetof(DressedVertex, color),
+                       1);
 }
 
 void SceneRenderer::draw_background(const GlFramebuffer& target,
@@ -129,41 +179,53 @@ void SceneRenderer::draw_background(const GlFramebuffer& target,
   gl_.Enable(GL_DEPTH_TEST);
 }
 
-const SceneRenderer::Program& SceneRenderer::use_program(const Object& object,
-                                                         const DrawStyle& style,
-                                                         const Program* current) const {
-  const Program& program = object.double_sided ? double_sided_ : single_sided_;
-  if (&program == current) return program;
-  program.program.use();
-  (style.cull_back_faces && !object.double_sided ? gl_.Enable : gl_.Disable)(GL_CULL_FACE);
-  return program;
-}
-
-void SceneRenderer::set_object(const Program& program, const Object& object,
-                               const glm::dmat4& clip_from_world, const DrawStyle& style) const {
+void SceneRenderer::use(const Object& object, std::int32_t slot, const glm::dmat4& clip_from_world,
+                        const DrawStyle& style, DrawState& state) const {
+  const Look& look = object.looks[static_cast<std::size_t>(slot)];
+  const Program& program = style.base_color ? *look.plain : *look.program;
   const GLuint id = program.program.id();
+  if (state.program != &program) {
+    program.program.use();
+    (style.cull_back_faces && !program.is_double_sided ? gl_.Enable : gl_.Disable)(GL_CULL_FACE);
+    state.program = &program;
+  }
+  if (!style.base_color && look.texture != 0 && look.texture != state.texture) {
+    gl_.BindTextureUnit(0, look.texture);
+    state.texture = look.texture;
+  }
   // The product in double: near an eye far from the origin, float would lose what cancels.
   const glm::mat4 clip_from_model(clip_from_world * object.world_from_model);
-  const glm::vec3 base_color = style.base_color.value_or(object.base_color);
+  const glm::vec3 base_color = style.base_color.value_or(look.material->base_color);
+  const glm::vec3 emissive = style.base_color ? glm::vec3(0) : look.material->emissive;
   gl_.ProgramUniformMatrix4fv(id, program.clip_from_model, 1, GL_FALSE,
                               glm::value_ptr(clip_from_model));
   gl_.ProgramUniformMatrix3fv(id, program.normal_matrix, 1, GL_FALSE,
                               glm::value_ptr(object.rotation));
   gl_.ProgramUniform3fv(id, program.base_color, 1, glm::value_ptr(base_color));
+  gl_.ProgramUniform3fv(id, program.emissive, 1, glm::value_ptr(emissive));
+  gl_.ProgramUniform1f(id, program.opacity, look.material->opacity);
+  gl_.ProgramUniform1f(id, program.alpha_cutoff, look.material->alpha_cutoff);
+}
+
+void SceneRenderer::draw_range(const Range& range, std::uint32_t first_triangle,
+                               std::uint32_t n) const {
+  gl_.DrawElementsBaseVertex(
+      GL_TRIANGLES, static_cast<GLsizei>(3 * n), GL_UNSIGNED_INT,
+      reinterpret_cast<const void*>(range.index_offset + first_triangle * sizeof(Triangle)),
+      range.first_vertex);
 }
 
 void SceneRenderer::draw_objects(const glm::dmat4& clip_from_world,
                                  std::span<const ObjectDraw> draws, const DrawStyle& style) const {
   array_.bind();
-  const Program* current = nullptr;
+  DrawState state;
   for (const ObjectDraw& draw : draws) {
     const Object& object = objects_[index(draw.object)];
-    current = &use_program(object, style, current);
-    set_object(*current, object, clip_from_world, style);
-    const Range& range = ranges_[index(object.mesh)][static_cast<std::size_t>(draw.level)];
-    gl_.DrawElementsBaseVertex(GL_TRIANGLES, range.n_indices, GL_UNSIGNED_INT,
-                               reinterpret_cast<const void*>(range.index_offset),
-                               range.first_vertex);
+    const auto& ranges = ranges_[index(object.mesh)][static_cast<std::size_t>(draw.level)];
+    for (const Range& range : ranges) {
+      use(object, range.slot, clip_from_world, style, state);
+      draw_range(range, 0, static_cast<std::uint32_t>(range.n_indices / 3));
+    }
   }
   gl_.Enable(GL_CULL_FACE);
 }
@@ -173,37 +235,35 @@ std::size_t SceneRenderer::draw_clusters(const Camera& camera, std::span<const O
   const glm::dmat4 clip = clip_from_world(camera);
   const Frustum frustum = make_frustum(camera);
   array_.bind();
-  const Program* current = nullptr;
+  DrawState state;
   std::size_t n_drawn = 0;
   for (const ObjectId id : objects) {
     const Object& object = objects_[index(id)];
     const SceneObject& placed = *scene_objects_[index(id)];
-    current = &use_program(object, style, current);
-    set_object(*current, object, clip, style);
     const glm::dvec3 eye_model = placed.model_from_world(camera.eye);
-    const Range& range = cluster_ranges_[index(object.mesh)];
-    std::uint32_t first = 0, n = 0;  // a run of clusters to draw, in triangles
-    const auto draw_run = [&] {
-      if (n > 0)
-        gl_.DrawElementsBaseVertex(
-            GL_TRIANGLES, static_cast<GLsizei>(3 * n), GL_UNSIGNED_INT,
-            reinterpret_cast<const void*>(range.index_offset + first * sizeof(Triangle)),
-            range.first_vertex);
-      n_drawn += n;
-      n = 0;
-    };
-    for (const Cluster& cluster : clusters_[index(object.mesh)]) {
-      const bool hidden = (!object.double_sided && is_back_facing(cluster, eye_model)) ||
-                          !may_meet(frustum, placed.world_from_model(cluster.centre),
-                                    cluster.radius * placed.scale);
-      if (hidden) {
-        draw_run();
-      } else {
-        if (n == 0) first = cluster.first_triangle;
-        n += cluster.n_triangles;
+    for (const auto& [range, clusters] : clusters_[index(object.mesh)]) {
+      use(object, range.slot, clip, style, state);
+      const bool both_sides =
+          object.looks[static_cast<std::size_t>(range.slot)].material->double_sided;
+      std::uint32_t first = 0, n = 0;  // a run of clusters to draw, in triangles
+      const auto draw_run = [&] {
+        if (n > 0) draw_range(range, first, n);
+        n_drawn += n;
+        n = 0;
+      };
+      for (const Cluster& cluster : clusters) {
+        const bool hidden = (!both_sides && is_back_facing(cluster, eye_model)) ||
+                            !may_meet(frustum, placed.world_from_model(cluster.centre),
+                                      cluster.radius * placed.scale);
+        if (hidden) {
+          draw_run();
+        } else {
+          if (n == 0) first = cluster.first_triangle;
+          n += cluster.n_triangles;
+        }
       }
+      draw_run();
     }
-    draw_run();
   }
   gl_.Enable(GL_CULL_FACE);
   return n_drawn;

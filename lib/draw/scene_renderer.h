@@ -2,8 +2,10 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <map>
 #include <optional>
 #include <span>
+#include <tuple>
 #include <vector>
 
 #include "draw/frame_plan.h"
@@ -11,6 +13,7 @@
 #include "gl/framebuffer.h"
 #include "gl/objects.h"
 #include "mesh/clusters.h"
+#include "scene/surface.h"
 
 namespace viewcell {
 
@@ -20,12 +23,14 @@ struct DrawStyle {
   bool cull_back_faces = true;          ///< but for materials that are double-sided
 };
 
-/// Every mesh once in GL memory (20 bytes a vertex, 12 a triangle), plain material colours, back
-/// faces culled unless the material is double-sided. Frames are encoded sRGB (draw/shading.h);
+/// Every mesh once in GL memory (20 bytes a vertex, 36 where some mesh has pictures or colours, 12
+/// a triangle), every picture once a wrap, materials as scene/surface.h has them, back faces culled
+/// unless the material is double-sided. Frames are encoded sRGB (draw/shading.h);
 /// alpha is 1 on objects, 0 on ground and sky. Relies on, and leaves, the state of GlContext.
 class SceneRenderer {
  public:
-  /// levels: by MeshId. gl and scene must outlive this. One thread.
+  /// levels: by MeshId. The scene's pictures must be loaded (scene/pictures.h). gl and scene must
+  /// outlive this. One thread.
   SceneRenderer(const Gl& gl, const Scene& scene, const std::vector<MeshLevels>& levels);
 
   /// Binds and clears the target and draws the ground. The ground neither tests nor writes depth:
@@ -43,38 +48,57 @@ class SceneRenderer {
 
  private:
   struct Range {
+    std::int32_t slot = 0;
     GLsizei n_indices = 0;
     std::size_t index_offset = 0;  // bytes
     GLint first_vertex = 0;
   };
   struct Program {
     GlProgram program;
-    GLint clip_from_model = -1, normal_matrix = -1, base_color = -1;
+    bool is_double_sided = false;
+    GLint clip_from_model = -1, normal_matrix = -1, base_color = -1, emissive = -1, opacity = -1,
+          alpha_cutoff = -1;
+  };
+  // A material on a mesh.
+  struct Look {
+    const Material* material;
+    const Program* program;
+    const Program* plain;  // the same sides, without picture, colours and holes
+    GLuint texture;        // 0: none
   };
   struct Object {
     glm::dmat4 world_from_model;
     glm::mat3 rotation;
-    glm::vec3 base_color;
     MeshId mesh{};
-    bool double_sided = false;
+    std::vector<Look> looks;  // by slot of its mesh
+  };
+  // A run of clusters of one slot.
+  struct ClusterRange {
+    Range range;
+    std::vector<Cluster> clusters;  // model space
+  };
+  struct DrawState {
+    const Program* program = nullptr;
+    GLuint texture = 0;
   };
 
   void upload(const std::vector<MeshLevels>& levels);
-  const Program& use_program(const Object& object, const DrawStyle& style,
-                             const Program* current) const;
-  void set_object(const Program& program, const Object& object, const glm::dmat4& clip_from_world,
-                  const DrawStyle& style) const;
-  Program make_program(const Lighting& lighting, bool double_sided) const;
+  void add_object(const Scene& scene, const SceneObject& object);
+  GLuint texture_for(const Scene& scene, const Material& material);
+  const Program& program_for(const Lighting& lighting, const SurfaceKind& kind);
+  void use(const Object& object, std::int32_t slot, const glm::dmat4& clip_from_world,
+           const DrawStyle& style, DrawState& state) const;
+  void draw_range(const Range& range, std::uint32_t first_triangle, std::uint32_t n) const;
 
   const Gl& gl_;
   std::vector<Object> objects_;
-  std::vector<std::vector<Range>> ranges_;         // by mesh, by level
-  std::vector<Range> cluster_ranges_;              // by mesh: level 0 in the order of its clusters
-  std::vector<std::vector<Cluster>> clusters_;     // by mesh, model space
-  std::vector<const SceneObject*> scene_objects_;  // by object
-  GlBuffer vertices_, indices_;
+  std::vector<std::vector<std::vector<Range>>> ranges_;  // by mesh, by level, by slot
+  std::vector<std::vector<ClusterRange>> clusters_;      // by mesh, by slot
+  std::vector<const SceneObject*> scene_objects_;        // by object
+  GlBuffer vertices_, dressed_, indices_;
   GlVertexArray array_;
-  Program single_sided_, double_sided_;
+  std::map<SurfaceKind, Program> programs_;
+  std::map<std::tuple<int, Wrap, Wrap>, GlTexture> textures_;  // by picture and wraps
   GlProgram ground_program_;
   GlBuffer ground_vertices_;
   GlVertexArray ground_array_;

@@ -124,18 +124,29 @@ GlTexture GlTexture::make_2d_array(const Gl& gl, GLenum internal_format, int wid
   return texture;
 }
 
-GlTexture GlTexture::make_mipmapped(const Gl& gl, GLenum internal_format, int width_px,
-                                    int height_px, const void* texels) {
+GlTexture GlTexture::make_levels(const Gl& gl, GLenum internal_format, int width_px, int height_px,
+                                 int n_levels) {
   const std::string size = check_size(gl, width_px, height_px);
-  const int n_levels = std::bit_width(static_cast<unsigned>(std::max(width_px, height_px)));
   GlTexture texture(gl, GL_TEXTURE_2D);
   gl.TextureStorage2D(texture.id(), n_levels, internal_format, width_px, height_px);
-  texture.write(0, 0, 0, width_px, height_px, GL_RGBA, GL_UNSIGNED_BYTE, texels);
-  gl.GenerateTextureMipmap(texture.id());
   gl.TextureParameteri(texture.id(), GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
   gl.TextureParameteri(texture.id(), GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   check_gl(gl, "a texture of " + size);
   return texture;
+}
+
+GlTexture GlTexture::make_mipmapped(const Gl& gl, GLenum internal_format, int width_px,
+                                    int height_px, const void* texels) {
+  const int n_levels = std::bit_width(static_cast<unsigned>(std::max(width_px, height_px)));
+  GlTexture texture = make_levels(gl, internal_format, width_px, height_px, n_levels);
+  texture.write_level(0, width_px, height_px, texels);
+  gl.GenerateTextureMipmap(texture.id());
+  check_gl(gl, "averaging a texture");
+  return texture;
+}
+
+void GlTexture::write_level(int level, int width_px, int height_px, const void* texels) {
+  gl().TextureSubImage2D(id(), level, 0, 0, width_px, height_px, GL_RGBA, GL_UNSIGNED_BYTE, texels);
 }
 
 GlTexture GlTexture::make_buffer_texture(const Gl& gl, GLenum internal_format,

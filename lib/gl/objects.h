@@ -72,6 +72,10 @@ class GlTexture : public GlObject {
   /// sRGB). Throws MachineError when a side is beyond the driver's limit.
   static GlTexture make_mipmapped(const Gl& gl, GLenum internal_format, int width_px, int height_px,
                                   const void* texels);
+  /// Room for a whole RGBA8 picture and n_levels - 1 smaller ones (write_level), repeated in both
+  /// directions, filtered linearly within and between them. Throws MachineError as above.
+  static GlTexture make_levels(const Gl& gl, GLenum internal_format, int width_px, int height_px,
+                               int n_levels);
   /// Texels are the buffer's contents, which must outlive the texture.
   static GlTexture make_buffer_texture(const Gl& gl, GLenum internal_format,
                                        const GlBuffer& buffer);
@@ -80,6 +84,8 @@ class GlTexture : public GlObject {
   /// Rows from the texture's row 0 on; layer is 0 but for arrays.
   void write(int x, int y, int layer, int width_px, int height_px, GLenum format, GLenum type,
              const void* texels);
+  /// A whole level of RGBA8, rows from v = 0 up.
+  void write_level(int level, int width_px, int height_px, const void* texels);
 
  private:
   GlTexture(const Gl& gl, GLenum target);

@@ -13,6 +13,7 @@ namespace viewcell {
 namespace {
 
 using Sum = std::array<double, 4>;
+constexpr double kOpaque = 1 - 1e-9;  // all of a pixel's alpha, up to rounding
 
 // The pixels that new pixel i of n covers of n_old, and how much of each.
 struct Covered {
@@ -58,17 +59,22 @@ ImageRgba8 shrink(const ImageRgba8& image, int width_px, int height_px, PixelKin
     const Covered rows = find_covered(y, height_px, image.height_px);
     for (int x = 0; x < width_px; ++x) {
       const Covered& across = columns[static_cast<std::size_t>(x)];
-      Sum sum{};
+      Sum sum{}, seen{};  // of all pixels; of each times its alpha
       for (std::size_t j = 0; j < rows.shares.size(); ++j)
         for (std::size_t i = 0; i < across.shares.size(); ++i) {
           const Rgba8& p =
               image.at(across.first + static_cast<int>(i), rows.first + static_cast<int>(j));
-          const double share = rows.shares[j] * across.shares[i];
-          for (std::size_t c = 0; c < 3; ++c) sum[c] += share * decoding[p[c]];
-          sum[3] += share * p[3] / 255.0;
+          const double share = rows.shares[j] * across.shares[i], alpha = p[3] / 255.0;
+          for (std::size_t c = 0; c < 3; ++c) {
+            sum[c] += share * decoding[p[c]];
+            seen[c] += share * alpha * decoding[p[c]];
+          }
+          sum[3] += share * alpha;
         }
+      const bool by_alpha = kind == PixelKind::color && sum[3] > 0 && sum[3] < kOpaque;
       for (std::size_t c = 0; c < 4; ++c)
-        out.at(x, y)[c] = encode_channel(sum[c], c < 3 && kind == PixelKind::color);
+        out.at(x, y)[c] = encode_channel(by_alpha && c < 3 ? seen[c] / sum[3] : sum[c],
+                                         c < 3 && kind == PixelKind::color);
     }
   });
   return out;

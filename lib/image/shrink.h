@@ -7,7 +7,7 @@ namespace viewcell {
 
 /// What a pixel's channels are, but for alpha.
 enum class PixelKind {
-  color,  ///< sRGB: averaged as light
+  color,  ///< sRGB: averaged as light, each pixel as much as its alpha says
   data    ///< averaged as it is: normals
 };
 

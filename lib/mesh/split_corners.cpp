@@ -84,30 +84,51 @@ std::vector<glm::vec3> make_normals_of(const TriMesh& mesh, const std::vector<Tr
   return out;
 }
 
-// Splits vertices of several normals.
-void split_by_normals(TriMesh& mesh) {
+// What a corner shows of its vertex.
+struct CornerLook {
+  glm::vec3 normal;
+  glm::vec2 texcoord{0};
+  std::int32_t slot = 0;
+  bool operator==(const CornerLook&) const = default;
+};
+
+// Splits vertices of several looks.
+void split_by_looks(TriMesh& mesh, const SplitOptions& options, VertexLooks& looks) {
   const std::vector<glm::vec3> of_corners = std::exchange(mesh.corner_normals, {});
+  const std::vector<glm::vec3> of_vertices = mesh.normals;
+  const auto look_at = [&](std::size_t c, std::uint32_t v) {
+    CornerLook look{of_corners.empty() ? of_vertices[v] : of_corners[c]};
+    if (options.texcoords) look.texcoord = mesh.texcoords[c];
+    if (options.materials) look.slot = mesh.materials[c / 3];
+    return look;
+  };
   const std::size_t n_before = mesh.positions.size();
-  mesh.normals.assign(n_before, glm::vec3(0));         // a zero one is not set yet
-  std::vector<std::uint32_t> next(n_before, kNoTwin);  // the same vertex with another normal
-  for (std::size_t c = 0; c < of_corners.size(); ++c) {
+  std::vector<CornerLook> of(n_before, CornerLook{{0, 0, 1}});  // of a vertex that no triangle uses
+  std::vector<bool> is_set(n_before, false);
+  std::vector<std::uint32_t> next(n_before, kNoTwin);  // the same vertex with another look
+  for (std::size_t c = 0; c < 3 * mesh.triangles.size(); ++c) {
     std::uint32_t& corner = mesh.triangles[c / 3][c % 3];
+    const CornerLook look = look_at(c, corner);
     std::uint32_t v = corner;
-    while (mesh.normals[v] != glm::vec3(0) && mesh.normals[v] != of_corners[c]) {
+    while (is_set[v] && of[v] != look) {
       if (next[v] == kNoTwin) {
         next[v] = static_cast<std::uint32_t>(mesh.positions.size());
         next.push_back(kNoTwin);
         mesh.positions.push_back(mesh.positions[corner]);
-        mesh.normals.emplace_back(0);
+        of.push_back(look), is_set.push_back(false);
         if (!mesh.colors.empty()) mesh.colors.push_back(mesh.colors[corner]);
       }
       v = next[v];
     }
-    mesh.normals[v] = of_corners[c];
+    of[v] = look, is_set[v] = true;
     corner = v;
   }
-  for (glm::vec3& normal : mesh.normals)
-    if (normal == glm::vec3(0)) normal = {0, 0, 1};  // of a vertex that no triangle uses
+  mesh.normals.clear();
+  for (const CornerLook& look : of) {
+    mesh.normals.push_back(look.normal);
+    if (options.texcoords) looks.texcoords.push_back(look.texcoord);
+    if (options.materials) looks.slots.push_back(look.slot);
+  }
 }
 
 // The vertices that are several at one position, if there are any.
@@ -162,8 +183,24 @@ std::vector<glm::vec3> compute_corner_normals(const TriMesh& mesh) {
   return make_normals_of(mesh, welded, match_twins(welded, mesh.positions.size()));
 }
 
-SplitMesh split_corners(TriMesh mesh) {
+std::vector<SlotRange> group_by_slot(const VertexLooks& looks, std::vector<Triangle>& triangles) {
+  if (!looks.slots.empty())
+    std::stable_sort(triangles.begin(), triangles.end(), [&](const Triangle& a, const Triangle& b) {
+      return looks.slot_of(a) < looks.slot_of(b);
+    });
+  std::vector<SlotRange> out;
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    const std::int32_t slot = looks.slot_of(triangles[t]);
+    if (out.empty() || out.back().slot != slot) out.push_back({slot, t, 0});
+    ++out.back().n_triangles;
+  }
+  return out;
+}
+
+SplitMesh split_corners(TriMesh mesh, const SplitOptions& options) {
   SplitMesh out;
+  const SplitOptions by{options.texcoords && !mesh.texcoords.empty(),
+                        options.materials && !mesh.materials.empty()};
   std::vector<std::uint32_t> welded = match_positions(mesh);
   const std::vector<Triangle> triangles = VertexWeld{welded, {}, {}}.weld(mesh.triangles);
   const std::vector<std::uint32_t> twins = match_twins(triangles, mesh.positions.size());
@@ -171,8 +208,8 @@ SplitMesh split_corners(TriMesh mesh) {
   if (mesh.normals.empty() && mesh.corner_normals.empty())
     mesh.corner_normals = make_normals_of(mesh, triangles, twins);
   const std::size_t n_before = mesh.positions.size();
-  if (!mesh.corner_normals.empty()) {
-    split_by_normals(mesh);
+  if (!mesh.corner_normals.empty() || by.texcoords || by.materials) {
+    split_by_looks(mesh, by, out.looks);
     for (std::size_t v = n_before; v < mesh.positions.size(); ++v) welded.push_back(kNoTwin);
     for (std::size_t t = 0; t < triangles.size(); ++t)
       for (std::size_t k = 0; k < 3; ++k) welded[mesh.triangles[t][k]] = triangles[t][k];

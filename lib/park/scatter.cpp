@@ -105,7 +105,7 @@ std::vector<SceneObject> scatter_statues(const std::vector<SceneMesh>& meshes, s
         if (!is_inside_area(hull) || !is_free(candidate, placed)) continue;
         object.name = meshes[kind].name + "-" + std::to_string(++n_of_kind[kind]);
         object.mesh = MeshId(kind);
-        object.material = static_cast<int>(kind);
+        object.materials = {static_cast<int>(kind)};
         objects.push_back(object);
         placed.push_back(candidate);
         break;

@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "play/hybrid_shaders.h"
+#include "scene/surface.h"
 
 namespace viewcell {
 
@@ -35,7 +36,7 @@ GlProgram make_program(const Gl& gl, const char* name, int n_views, DrawnSides s
 }
 
 bool shows_both_sides(const Scene& scene, const SceneObject& object) {
-  return scene.material_of(object).double_sided || scene.mesh_of(object).has_twins;
+  return scene.is_double_sided(object) || scene.mesh_of(object).has_twins;
 }
 
 glm::vec3 middle_of(const ReadyObject& object) {
@@ -97,7 +98,7 @@ void HybridRenderer::upload_blocks(const ResidentCell& cell, const HybridPlan& p
     const SceneObject& object = scene_.objects[index(ready.object)];
     DrawBlock block;
     block.base_color =
-        glm::vec4(style == HybridStyle::textured ? scene_.material_of(object).base_color
+        glm::vec4(style == HybridStyle::textured ? mean_color(scene_, scene_.material_of(object, 0))
                                                  : kind_color(ready.kind),
                   1);
     block.weights = {draw.views.weight[0], draw.views.weight[1], 0, 0};
@@ -154,7 +155,7 @@ void HybridRenderer::draw(const Camera& camera, const ResidentCell& cell, GLuint
                                    : (blends ? programs.two_views : programs.one_view);
     if (&program != current) program.use();
     current = &program;
-    const bool culls = !scene_.material_of(object).double_sided;
+    const bool culls = !scene_.is_double_sided(object);
     if (!culls) gl_.Disable(GL_CULL_FACE);
     draw_one(cell, plan, i);
     if (!culls) gl_.Enable(GL_CULL_FACE);

@@ -26,7 +26,7 @@ DrawnFrame Player::draw_plan(const FramePlan& plan, const glm::dmat4& clip,
                              const DrawStyle& style) {
   scene_renderer_.draw_background(target_, clip);
   scene_renderer_.draw_objects(clip, plan.draws, style);
-  return {0, plan.n_triangles, plan.draws.size(), 0};
+  return {0, plan.n_triangles, plan.n_calls, 0};
 }
 
 DrawnFrame Player::draw_resident(const Camera& camera, const ResidentCell& cell,

@@ -28,6 +28,11 @@ glm::vec3 turn_up_axis(const std::string& up, const glm::vec3& p) {
   return p;
 }
 
+bool Scene::is_double_sided(const SceneObject& object) const {
+  return std::any_of(object.materials.begin(), object.materials.end(),
+                     [&](int m) { return materials[static_cast<std::size_t>(m)].double_sided; });
+}
+
 std::size_t count_triangles(const Scene& scene) {
   std::size_t n = 0;
   for (const SceneObject& object : scene.objects) n += scene.mesh_of(object).n_triangles;

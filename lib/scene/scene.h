@@ -15,16 +15,9 @@
 #include "mesh/mesh.h"
 #include "mesh/split_corners.h"
 #include "scene/lighting.h"
+#include "scene/material.h"
 
 namespace viewcell {
-
-/// What a surface looks like. Colours are linear, [0, 1].
-struct Material {
-  std::string name;
-  glm::vec3 base_color{0.5f};
-  std::string base_color_texture;  ///< a path as in the file; empty: none
-  bool double_sided = false;       ///< otherwise back faces are culled in every mode
-};
 
 /// A mesh of the scene, in model space: z up, the file's own up axis and scale already applied.
 struct SceneMesh {
@@ -40,6 +33,10 @@ struct SceneMesh {
   std::size_t n_triangles = 0;  ///< known even when the scene was read without meshes
   TriMesh mesh;     ///< as drawn, one normal a vertex; empty when the scene was read without meshes
   VertexWeld weld;  ///< which of its vertices are one
+  /// Where objects show pictures or several materials: one of each a vertex, too.
+  VertexLooks looks;
+  /// Materials that its triangles name, at least 1: objects give one for each.
+  std::size_t n_slots = 1;
   bool has_twins = false;  ///< see SplitMesh: parts of it are seen from both sides
 };
 
@@ -47,7 +44,8 @@ struct SceneMesh {
 struct SceneObject {
   std::string name;
   MeshId mesh{};
-  int material = 0;  ///< index into Scene::materials; a mesh's own per-triangle materials win
+  /// Places in Scene::materials: one for each slot of its mesh, or one for all of them.
+  std::vector<int> materials{0};
   glm::dvec3 translation{0};
   glm::dquat rotation{1, 0, 0, 0};
   double scale = 1;
@@ -76,20 +74,32 @@ struct Scene {
   Lighting lighting;
   double ground_z = 0;
   std::vector<Material> materials;
+  std::vector<ScenePicture> pictures;
   std::vector<SceneMesh> meshes;
   std::vector<SceneObject> objects;
-  std::string hash;  ///< of what scene.json says (white space aside) and of every mesh file's bytes
+  /// Of what scene.json says (white space aside) and of every mesh's and picture's bytes.
+  std::string hash;
   std::string file_hash;             ///< hash_hex() of scene.json's bytes
   std::vector<FileRemarks> remarks;  ///< on scene.json and its meshes, where there are any
 
   const SceneMesh& mesh_of(const SceneObject& object) const { return meshes[index(object.mesh)]; }
-  const Material& material_of(const SceneObject& object) const {
-    return materials[static_cast<std::size_t>(object.material)];
+  const Material& material_of(const SceneObject& object, std::size_t slot) const {
+    const std::size_t at = object.materials.size() == 1 ? 0 : slot;
+    return materials[static_cast<std::size_t>(object.materials[at])];
+  }
+  /// Whether some of its materials is seen from behind.
+  bool is_double_sided(const SceneObject& object) const;
+  /// The picture of a material as its sides say; nothing where it has none.
+  MipTexture texture_of(const Material& material) const {
+    if (material.picture < 0) return {};
+    return {&pictures[static_cast<std::size_t>(material.picture)].mips, material.wrap_u,
+            material.wrap_v};
   }
 };
 
 struct ReadSceneOptions {
-  bool with_meshes = true;  ///< false: only scene.json is parsed; meshes stay empty
+  /// False: only scene.json is parsed, and pictures are hashed; meshes and pictures stay empty.
+  bool with_meshes = true;
   int n_threads = 0;
   MeshLimits limits = {};  ///< of each mesh file
 };

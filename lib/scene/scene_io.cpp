@@ -1,5 +1,5 @@
 // scene.json (docs/formats.md, docs/schemas/scene.schema.json).
-#include <charconv>
+#include <algorithm>
 #include <cmath>
 
 #include "base/error.h"
@@ -9,6 +9,7 @@
 #include "mesh/backs.h"
 #include "mesh/used_vertices.h"
 #include "mesh/weld.h"
+#include "scene/material_io.h"
 #include "scene/scene.h"
 
 namespace viewcell {
@@ -18,29 +19,9 @@ constexpr const char* kSceneFormat = "viewcell-scene";
 constexpr double kMaxCoordinate = 1e7;   // beyond it, float geometry has lost the park's detail
 constexpr double kUnitTolerance = 1e-3;  // a direction or quaternion written with few digits
 constexpr double kMinScale = 1e-9, kMaxScale = 1e9;
+constexpr std::size_t kMostSlots = 1 << 16;  // materials of one mesh
 
 // --- writing ---
-
-// The double whose shortest text is the float's: 0.48f is written 0.48, not 0.479999989.
-double short_double(float x) {
-  char text[40];
-  const auto end = std::to_chars(text, text + sizeof text, x).ptr;
-  double out = 0;
-  std::from_chars(text, end, out);
-  return out;
-}
-
-Json to_json(const glm::vec3& v) {
-  return {short_double(v.x), short_double(v.y), short_double(v.z)};
-}
-
-Json to_json(const Material& material) {
-  return {{"name", material.name},
-          {"base_color", to_json(material.base_color)},
-          {"base_color_texture",
-           material.base_color_texture.empty() ? Json(nullptr) : Json(material.base_color_texture)},
-          {"double_sided", material.double_sided}};
-}
 
 Json to_json(const SceneMesh& mesh) {
   VIEWCELL_CHECK(!mesh.hash.empty() && mesh.n_triangles > 0, mesh.name);
@@ -58,12 +39,15 @@ Json to_json(const SceneMesh& mesh) {
 Json to_json(const SceneObject& object) {
   const glm::dquat& q = object.rotation;
   const glm::dvec3& t = object.translation;
-  return {{"name", object.name},
-          {"mesh", index(object.mesh)},
-          {"material", object.material},
-          {"translation", {t.x, t.y, t.z}},
-          {"rotation", {q.x, q.y, q.z, q.w}},
-          {"scale", object.scale}};
+  Json out = {{"name", object.name}, {"mesh", index(object.mesh)}};
+  if (object.materials.size() == 1)
+    out["material"] = object.materials[0];
+  else
+    out["materials"] = object.materials;
+  out["translation"] = {t.x, t.y, t.z};
+  out["rotation"] = {q.x, q.y, q.z, q.w};
+  out["scale"] = object.scale;
+  return out;
 }
 
 template <typename T>
@@ -74,11 +58,6 @@ Json array_to_json(const std::vector<T>& items) {
 }
 
 // --- reading ---
-
-glm::vec3 color_at(const JsonCursor& cursor, double most) {
-  const std::vector<double> c = cursor.numbers(3, 0, most);
-  return {c[0], c[1], c[2]};
-}
 
 Area read_area(const JsonCursor& cursor) {
   const auto lo = cursor.at("lo").numbers(2, -kMaxCoordinate, kMaxCoordinate);
@@ -104,19 +83,6 @@ Lighting read_lighting(const JsonCursor& root) {
   return out;
 }
 
-Material read_material(const JsonCursor& cursor) {
-  Material material;
-  material.name = cursor.at("name").string();
-  material.base_color = color_at(cursor.at("base_color"), 1);
-  const JsonCursor texture = cursor.at("base_color_texture");
-  if (!texture.value().is_null()) {
-    material.base_color_texture = texture.string();
-    resolve_inside(cursor.file(), texture.place(), material.base_color_texture);
-  }
-  material.double_sided = cursor.at("double_sided").boolean();
-  return material;
-}
-
 SceneMesh read_mesh_entry(const JsonCursor& cursor) {
   SceneMesh mesh;
   mesh.name = cursor.at("name").string();
@@ -137,8 +103,7 @@ SceneMesh read_mesh_entry(const JsonCursor& cursor) {
 }
 
 SceneObject read_object(const JsonCursor& cursor, const Scene& scene) {
-  const auto index_into = [&](const char* key, std::size_t n) {
-    const JsonCursor at = cursor.at(key);
+  const auto index_into = [&](const JsonCursor& at, std::size_t n) {
     const auto value = at.integer(-(1LL << 40), 1LL << 40);
     if (value < 0 || value >= static_cast<std::int64_t>(n))
       at.fail(std::to_string(value) + " is out of range: there are " + std::to_string(n));
@@ -146,8 +111,18 @@ SceneObject read_object(const JsonCursor& cursor, const Scene& scene) {
   };
   SceneObject object;
   object.name = cursor.at("name").string();
-  object.mesh = MeshId(index_into("mesh", scene.meshes.size()));
-  object.material = index_into("material", scene.materials.size());
+  object.mesh = MeshId(index_into(cursor.at("mesh"), scene.meshes.size()));
+  if (cursor.has("materials") && cursor.has("material"))
+    cursor.fail("has both \"material\" and \"materials\"");
+  if (cursor.has("materials")) {
+    const JsonCursor list = cursor.at("materials");
+    object.materials.clear();
+    for (std::size_t i = 0; i < list.size(kMostSlots); ++i)
+      object.materials.push_back(index_into(list.at(i), scene.materials.size()));
+    if (object.materials.empty()) list.fail("is empty");
+  } else {
+    object.materials = {index_into(cursor.at("material"), scene.materials.size())};
+  }
   const auto t = cursor.at("translation").numbers(3, -kMaxCoordinate, kMaxCoordinate);
   object.translation = {t[0], t[1], t[2]};
   const auto q = cursor.at("rotation").numbers(4, -2, 2);
@@ -191,7 +166,7 @@ void set_on_ground(TriMesh& mesh) {
 
 // Reads and checks one mesh file; place: "meshes[3]". Returns what is to be said of it.
 FileRemarks load_mesh(const std::filesystem::path& scene_file, const std::string& place,
-                      const MeshLimits& limits, SceneMesh& mesh) {
+                      const MeshLimits& limits, const SplitOptions& by, SceneMesh& mesh) {
   const std::filesystem::path file = resolve_inside(scene_file, place + ".file", mesh.file);
   MeshSource source;
   mesh.mesh = read_mesh(file, &source, limits);
@@ -205,6 +180,7 @@ FileRemarks load_mesh(const std::filesystem::path& scene_file, const std::string
         scene_file.string(), place + ".triangles",
         std::to_string(mesh.n_triangles) + ", but '" + mesh.file + "' has " + std::to_string(n));
   mesh.n_triangles = n;
+  mesh.n_slots = std::max<std::size_t>(mesh.mesh.material_names.size(), 1);
   if (mesh.place == "centre") centre_positions(mesh.mesh);
   apply_up_and_scale(mesh);
   if (mesh.place == "ground") set_on_ground(mesh.mesh);
@@ -217,20 +193,35 @@ FileRemarks load_mesh(const std::filesystem::path& scene_file, const std::string
   add_remark(&source.remarks, "vertices moved onto others next to them, so that cracks close",
              closed.n_welded);
   add_remark(&source.remarks, kBacksRecut, cut_backs_alike(mesh.mesh));
-  SplitMesh split = split_corners(std::move(mesh.mesh));
+  SplitMesh split = split_corners(std::move(mesh.mesh), by);
   mesh.mesh = std::move(split.mesh);
   mesh.weld = std::move(split.weld);
+  mesh.looks = std::move(split.looks);
   mesh.has_twins = split.has_twins;
   return {file, source.remarks};
 }
 
+// What the vertices of each mesh are split by: what some of its objects shows.
+std::vector<SplitOptions> choose_splits(const Scene& scene) {
+  std::vector<SplitOptions> out(scene.meshes.size());
+  for (const SceneObject& object : scene.objects) {
+    SplitOptions& by = out[index(object.mesh)];
+    by.materials |= object.materials.size() > 1;
+    for (const int material : object.materials)
+      by.texcoords |= scene.materials[static_cast<std::size_t>(material)].picture >= 0;
+  }
+  return out;
+}
+
 void load_meshes(const std::filesystem::path& file, const ReadSceneOptions& options, Scene& scene) {
+  const std::vector<SplitOptions> splits = choose_splits(scene);
   std::vector<FileRemarks> remarks(scene.meshes.size());
   parallel_for(scene.meshes.size(), options.n_threads, [&](std::size_t i) {
     SceneMesh& mesh = scene.meshes[i];
     if (options.with_meshes || mesh.hash.empty() || mesh.n_triangles == 0)
-      remarks[i] = load_mesh(file, "meshes[" + std::to_string(i) + "]", options.limits, mesh);
-    if (!options.with_meshes) mesh.mesh = {}, mesh.weld = {};
+      remarks[i] =
+          load_mesh(file, "meshes[" + std::to_string(i) + "]", options.limits, splits[i], mesh);
+    if (!options.with_meshes) mesh.mesh = {}, mesh.weld = {}, mesh.looks = {};
   });
   for (FileRemarks& of_mesh : remarks)
     if (!of_mesh.remarks.empty()) scene.remarks.push_back(std::move(of_mesh));
@@ -243,10 +234,9 @@ void remark_scene_keys(const JsonCursor& root, Remarks& remarks) {
   constexpr const char* kGround[] = {"z", "color"};
   constexpr const char* kSky[] = {"color"};
   constexpr const char* kLight[] = {"toward_light", "color", "ambient_sky", "ambient_ground"};
-  constexpr const char* kMaterial[] = {"name", "base_color", "base_color_texture", "double_sided"};
   constexpr const char* kMesh[] = {"name",  "file",      "up",   "scale",
                                    "place", "triangles", "hash", "substitutes"};
-  constexpr const char* kObject[] = {"name",        "mesh",     "material",
+  constexpr const char* kObject[] = {"name",        "mesh",     "material", "materials",
                                      "translation", "rotation", "scale"};
   remark_unknown_keys(root, "the scene", kScene, &remarks);
   remark_unknown_keys(root.at("area"), "area", kArea, &remarks);
@@ -257,13 +247,42 @@ void remark_scene_keys(const JsonCursor& root, Remarks& remarks) {
     for (std::size_t i = 0; i < root.at(array).size(); ++i)
       remark_unknown_keys(root.at(array).at(i), what, known, &remarks);
   };
-  each("materials", "a material", kMaterial);
-  const JsonCursor materials = root.at("materials");
-  for (std::size_t i = 0; i < materials.size(); ++i)
-    add_remark(&remarks, "pictures of materials (base_color_texture), not drawn yet",
-               !materials.at(i).at("base_color_texture").value().is_null());
+  for (std::size_t i = 0; i < root.at("materials").size(); ++i)
+    remark_material_keys(root.at("materials").at(i), remarks);
   each("meshes", "a mesh", kMesh);
   each("objects", "an object", kObject);
+}
+
+// Once the meshes are known: an object gives a material for each of its mesh's.
+void check_slots(const std::string& file, const Scene& scene, const ReadSceneOptions& options) {
+  for (std::size_t i = 0; i < scene.objects.size() && options.with_meshes; ++i) {
+    const SceneObject& object = scene.objects[i];
+    const SceneMesh& mesh = scene.mesh_of(object);
+    if (object.materials.size() > 1 && object.materials.size() != mesh.n_slots)
+      throw InputError(file, "objects[" + std::to_string(i) + "].materials",
+                       std::to_string(object.materials.size()) + ", but '" + mesh.file + "' has " +
+                           std::to_string(mesh.n_slots));
+  }
+}
+
+// What materials ask for and meshes have not.
+void remark_missing(const Scene& scene, const ReadSceneOptions& options, Remarks& remarks) {
+  std::size_t n_texcoords = 0, n_colors = 0;
+  for (const SceneObject& object : scene.objects) {
+    bool has_picture = false, has_colors = false;
+    for (const int m : object.materials) {
+      const Material& material = scene.materials[static_cast<std::size_t>(m)];
+      has_picture |= material.picture >= 0;
+      has_colors |= material.has_vertex_colors;
+    }
+    const SceneMesh& mesh = scene.mesh_of(object);
+    n_texcoords += has_picture && mesh.looks.texcoords.empty();
+    n_colors += has_colors && mesh.mesh.colors.empty();
+  }
+  if (!options.with_meshes) return;
+  add_remark(&remarks, "objects without texture coordinates, drawn without their picture",
+             n_texcoords);
+  add_remark(&remarks, "objects without vertex colours, drawn without them", n_colors);
 }
 
 // Places an object whose mesh is about an offset, and refuses it where floats, which everything is
@@ -289,7 +308,7 @@ void place_object(const std::string& file, std::size_t id, const SceneMesh& mesh
 
 Scene read_scene(const std::filesystem::path& file, const ReadSceneOptions& options) {
   Scene scene;
-  const Json json = read_json(file, kSceneFormat, 1, "", &scene.file_hash);
+  const Json json = read_json(file, kSceneFormat, {1, 2}, "", &scene.file_hash);
   const JsonCursor root(json, file);
   scene.name = root.at("name").string();
   scene.area = read_area(root.at("area"));
@@ -305,21 +324,29 @@ Scene read_scene(const std::filesystem::path& file, const ReadSceneOptions& opti
   each("objects", [&](const JsonCursor& at) { scene.objects.push_back(read_object(at, scene)); });
   Remarks remarks;
   remark_scene_keys(root, remarks);
-  if (!remarks.empty()) scene.remarks.push_back({file, std::move(remarks)});
+  list_pictures(file, scene);
   load_meshes(file, options, scene);
+  check_slots(file.string(), scene, options);
+  remark_missing(scene, options, remarks);
+  if (!remarks.empty()) scene.remarks.insert(scene.remarks.begin(), {file, std::move(remarks)});
   for (std::size_t i = 0; i < scene.objects.size(); ++i)
     place_object(file.string(), i, scene.mesh_of(scene.objects[i]), scene.objects[i]);
   std::string hashes = hash_hex(json.dump());
   for (const SceneMesh& mesh : scene.meshes) hashes += mesh.hash;
+  for (const ScenePicture& picture : scene.pictures) hashes += picture.hash;
   scene.hash = hash_hex(hashes);
   return scene;
 }
 
 Json format_scene(const Scene& scene, const Json& provenance) {
   const Lighting& l = scene.lighting;
+  const bool is_version_1 =
+      std::all_of(scene.materials.begin(), scene.materials.end(), is_of_version_1) &&
+      std::all_of(scene.objects.begin(), scene.objects.end(),
+                  [](const SceneObject& object) { return object.materials.size() == 1; });
   return {
       {"format", kSceneFormat},
-      {"version", 1},
+      {"version", is_version_1 ? 1 : 2},
       {"made_by", provenance},
       {"name", scene.name},
       {"area",

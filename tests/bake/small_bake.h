@@ -36,7 +36,7 @@ inline Scene make_bake_scene() {
     SceneObject object;
     object.name = "object " + std::to_string(i);
     object.mesh = MeshId(i % 2);
-    object.material = i / 2 % 2;
+    object.materials = {i / 2 % 2};
     object.scale = i % 2 ? 0.4 : 1;
     object.translation = {places[i][0], places[i][1], 12 + i};
     object.rotation = random_rotation(random);

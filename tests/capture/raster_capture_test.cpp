@@ -9,6 +9,7 @@
 #include "capture/shapes.h"
 #include "common/models.h"
 #include "gl/context.h"
+#include "scene/material_scene.h"
 
 namespace viewcell {
 namespace {
@@ -138,6 +139,22 @@ TEST(RasterCapture, AgreesWithRaysOnOpenSurfaces) {
     const Agreement a = compare_engines(make_scene_of(mesh, double_sided), 8, 60, 4);
     report(double_sided ? "open torus, double-sided" : "open torus", a);
     expect_agreement(a, 10000, 4000);
+  }
+}
+
+// Every kind of material. Pictures' levels may differ where blocks of 2 x 2 pixels lie otherwise.
+TEST(RasterCapture, AgreesWithRaysOnMaterials) {
+  const Scene all = make_material_scene();
+  for (const SceneObject& object : all.objects) {
+    SCOPED_TRACE(object.name);
+    Scene scene = all;
+    scene.objects = {object};
+    const Agreement a = compare_engines(scene, 4, 8, 7);
+    report(object.name.c_str(), a);
+    EXPECT_GT(a.n_seen, 20000u);
+    EXPECT_LE(a.n_mask, a.n_seen / 200);
+    EXPECT_LE(a.n_layer, a.n_seen / 200);
+    EXPECT_LE(a.n_color, a.n_seen / 100);
   }
 }
 

@@ -57,7 +57,7 @@ TEST(FramePlan, NoObjectWithAVertexInTheFrameIsCulled) {
 TEST(FramePlan, WallAcrossTheFrameIsKept) {
   Scene scene = make_small_scene(0);
   scene.meshes.push_back(make_scene_mesh("wall", make_wall(1000)));
-  scene.objects.push_back({"wall", MeshId(2), 0, {50, 0, -1000}, {1, 0, 0, 0}, 1});
+  scene.objects.push_back({"wall", MeshId(2), {0}, {50, 0, -1000}, {1, 0, 0, 0}, 1});
   Camera camera;
   camera.eye = {0, 0, 5};
   const PlanScene plan_scene = make_plan_scene(scene, build_scene_levels(scene, false));
@@ -73,12 +73,12 @@ TEST(FramePlan, EverySideCulls) {
   camera.eye = {0, 0, 5};
   const glm::dvec3 beside[] = {{30, 90, 5}, {30, -90, 5}, {30, 0, 95}, {30, 0, -85}, {-30, 0, 5}};
   for (const glm::dvec3& at : beside) {
-    scene.objects = {{"torus", MeshId(0), 0, at, {1, 0, 0, 0}, 1}};
+    scene.objects = {{"torus", MeshId(0), {0}, at, {1, 0, 0, 0}, 1}};
     const PlanScene plan_scene = make_plan_scene(scene, build_scene_levels(scene, false));
     EXPECT_TRUE(plan_frustum(plan_scene, camera).draws.empty())
         << at.x << " " << at.y << " " << at.z;
   }
-  scene.objects = {{"torus", MeshId(0), 0, {30, 0, 5}, {1, 0, 0, 0}, 1}};
+  scene.objects = {{"torus", MeshId(0), {0}, {30, 0, 5}, {1, 0, 0, 0}, 1}};
   const PlanScene ahead = make_plan_scene(scene, build_scene_levels(scene, false));
   EXPECT_EQ(plan_frustum(ahead, camera).draws.size(), 1u);
 }
@@ -86,7 +86,7 @@ TEST(FramePlan, EverySideCulls) {
 TEST(FramePlan, FrustumRunsFrontToBackWithTiesById) {
   Scene scene = make_small_scene(0);
   for (const double x : {60.0, 20.0, 40.0, 20.0})
-    scene.objects.push_back({"torus", MeshId(0), 0, {x, 0, 5}, {1, 0, 0, 0}, 1});
+    scene.objects.push_back({"torus", MeshId(0), {0}, {x, 0, 5}, {1, 0, 0, 0}, 1});
   Camera camera;
   camera.eye = {0, 0, 5};
   const auto plan = plan_frustum(make_plan_scene(scene, build_scene_levels(scene, false)), camera);
@@ -97,7 +97,7 @@ TEST(FramePlan, FrustumRunsFrontToBackWithTiesById) {
 
 TEST(FramePlan, DistanceToABoxByHand) {
   const Box box{{-1, -1, -1}, {1, 1, 1}};
-  const SceneObject object{"box", MeshId(0), 0, {10, 0, 0}, {1, 0, 0, 0}, 2};  // spans 8..12
+  const SceneObject object{"box", MeshId(0), {0}, {10, 0, 0}, {1, 0, 0, 0}, 2};  // spans 8..12
   EXPECT_DOUBLE_EQ(distance_to_box(object, box, {0, 0, 0}), 8);
   EXPECT_DOUBLE_EQ(distance_to_box(object, box, {5, 6, 0}), 5);
   EXPECT_DOUBLE_EQ(distance_to_box(object, box, {11, 1, -1}), 0);
@@ -107,7 +107,7 @@ TEST(FramePlan, DistanceToABoxByHand) {
 TEST(FramePlan, LodTakesTheCoarsestLevelWithinAPixel) {
   PlanScene scene;
   scene.meshes.push_back({{{-1, -1, -1}, {1, 1, 1}}, {{800, 0}, {400, 0.01}, {200, 0.05}}});
-  scene.objects.push_back({"box", MeshId(0), 0, {0, 0, 0}, {1, 0, 0, 0}, 2});
+  scene.objects.push_back({"box", MeshId(0), {0}, {0, 0, 0}, {1, 0, 0, 0}, 2});
   const auto level_at = [&](double distance_of_face) {
     Camera camera;
     camera.eye = {-distance_of_face - 2, 0, 0};

@@ -95,7 +95,7 @@ Scene make_wall_scene(double yaw_rad, bool double_sided) {
   Scene scene = make_small_scene(0);
   scene.materials[0].double_sided = double_sided;
   scene.meshes.push_back(make_scene_mesh("wall", make_wall(5)));
-  SceneObject wall{"wall", MeshId(2), 0, {20, 0, 0}, {1, 0, 0, 0}, 1};
+  SceneObject wall{"wall", MeshId(2), {0}, {20, 0, 0}, {1, 0, 0, 0}, 1};
   wall.rotation = glm::angleAxis(yaw_rad, glm::dvec3(0, 0, 1));
   scene.objects.push_back(wall);
   return scene;

@@ -52,7 +52,7 @@ inline Scene make_small_scene(int n_objects, std::uint64_t seed = 1, int n_aroun
     SceneObject object;
     object.name = "object " + std::to_string(i);
     object.mesh = MeshId(i % 3 == 2 ? 1 : 0);
-    object.material = i % 2;
+    object.materials = {i % 2};
     object.scale = random.uniform(0.5, 3);
     object.translation = {random.uniform(-100, 100), random.uniform(-100, 100),
                           5 * object.scale + random.uniform(0, 3)};

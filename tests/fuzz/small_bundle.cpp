@@ -21,7 +21,7 @@ Scene write_small_scene(const fs::path& folder) {
   for (int i = 0; i < 3; ++i) {
     SceneObject object;
     object.name = "cube " + std::to_string(i);
-    object.material = i % 2;
+    object.materials = {i % 2};
     object.translation = {35.0 + i, 30.0 - 9 * i, 15};
     scene.objects.push_back(object);
   }

@@ -165,7 +165,7 @@ TEST(Walk, IsTheSameForEveryPresetAndThreadCount) {
     for (std::size_t i = 0; i < a.scene.objects.size(); ++i) {
       const SceneObject &x = a.scene.objects[i], &y = b.scene.objects[i];
       if (x.name != y.name || x.translation != y.translation || x.rotation != y.rotation ||
-          x.mesh != y.mesh || x.material != y.material)
+          x.mesh != y.mesh || x.materials != y.materials)
         return false;
     }
     return a.scene.objects.size() <= b.scene.objects.size();

@@ -25,7 +25,7 @@ inline Scene make_small_scene() {
   for (SceneMesh& mesh : scene.meshes) mesh.n_triangles = 12;
   scene.objects.resize(3);
   scene.objects[0].name = "a";
-  scene.objects[1].name = "b", scene.objects[1].mesh = MeshId(1), scene.objects[1].material = 1;
+  scene.objects[1].name = "b", scene.objects[1].mesh = MeshId(1), scene.objects[1].materials = {1};
   scene.objects[1].translation = {1.5, -2, 1.0 / 3};
   scene.objects[1].rotation = glm::angleAxis(0.7, glm::normalize(glm::dvec3(1, 2, 3)));
   scene.objects[2].name = "c", scene.objects[2].scale = 0.125;

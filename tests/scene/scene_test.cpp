@@ -8,6 +8,8 @@
 #include "base/random.h"
 #include "common/expect_input_error.h"
 #include "common/mutate.h"
+#include "image/io.h"
+#include "scene/pictures.h"
 #include "scene/scene_fixture.h"
 
 namespace viewcell {
@@ -16,6 +18,7 @@ namespace {
 TEST(Scene, WhatWasWrittenIsReadBackBitForBit) {
   SmallSceneFolder small;
   small.json()["materials"][1]["base_color_texture"] = "g.png";
+  small.folder().add("g.png", encode_png(ImageRgba8(2, 2, {1, 2, 3, 255})));
   const auto file = small.write();
   const Scene read = read_scene(file);
   EXPECT_EQ(format_json(format_scene(read, {{"tool", "test"}})), read_file(file));
@@ -29,7 +32,73 @@ TEST(Scene, WhatWasWrittenIsReadBackBitForBit) {
   EXPECT_EQ(read.ground_z, -0.25);
   ASSERT_EQ(read.remarks.size(), 1u);
   EXPECT_EQ(read.remarks[0].remarks.at(0).what,
-            "pictures of materials (base_color_texture), not drawn yet");
+            "objects without texture coordinates, drawn without their picture");
+}
+
+// All that version 2 has, and no version 2 without it.
+TEST(Scene, MaterialsOfVersion2AreReadBack) {
+  SmallSceneFolder small;
+  EXPECT_EQ(small.json()["version"], 1);
+  Scene scene = small.scene();
+  Material& leaves = scene.materials[1];
+  leaves.base_color_texture = "leaves.png";
+  leaves.opacity = 0.75f, leaves.alpha = AlphaMode::mask, leaves.alpha_cutoff = 0.25f;
+  leaves.has_vertex_colors = leaves.is_unlit = true;
+  leaves.emissive = {1, 2.5f, 0};
+  leaves.wrap_u = Wrap::mirror, leaves.wrap_v = Wrap::clamp;
+  small.folder().add("leaves.png", encode_png(ImageRgba8(4, 2, {1, 2, 3, 255})));
+  for (SceneMesh& mesh : scene.meshes) mesh.hash = hash_file(small.folder().path() / mesh.file);
+  small.json() = format_scene(scene, {{"tool", "test"}});
+  EXPECT_EQ(small.json()["version"], 2);
+  const auto file = small.write();
+  Scene read = read_scene(file);
+  EXPECT_EQ(format_json(format_scene(read, {{"tool", "test"}})), read_file(file));
+  ASSERT_EQ(read.pictures.size(), 1u);
+  EXPECT_EQ(read.pictures[0].cutoff, 0.25f);
+  EXPECT_EQ(read.materials[1].picture, 0);
+  EXPECT_EQ(read.materials[0].picture, -1);
+  load_pictures(file, read);
+  EXPECT_EQ(read.pictures[0].mips.size(), 3u);
+  EXPECT_EQ(read.pictures[0].mips[0].width_px, 4);
+}
+
+// Pictures count in the scene's hash, and are those that it was read with.
+TEST(Scene, PicturesAreHeldByTheirBytes) {
+  SmallSceneFolder small;
+  small.json()["materials"][0]["base_color_texture"] = "a.png";
+  small.folder().add("a.png", encode_png(ImageRgba8(2, 2, {1, 2, 3, 255})));
+  const auto file = small.write();
+  const Scene first = read_scene(file);
+  EXPECT_EQ(read_scene(file, {.with_meshes = false}).hash, first.hash);
+  small.folder().add("a.png", encode_png(ImageRgba8(2, 2, {9, 2, 3, 255})));
+  EXPECT_NE(read_scene(file).hash, first.hash);
+  Scene stale = first;
+  EXPECT_INPUT_ERROR(load_pictures(file, stale), "picture changed");
+  small.folder().add("a.png", "no picture");
+  Scene bad = read_scene(file);
+  EXPECT_INPUT_ERROR(load_pictures(file, bad), "a.png");
+}
+
+// Two materials of one mesh, each with its triangles.
+TEST(Scene, MeshesOfSeveralMaterialsGiveEachItsOwn) {
+  SmallSceneFolder small;
+  small.folder().add("two.obj",
+                     "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 2 0 0\n"
+                     "usemtl b\nf 1 2 3\nusemtl a\nf 1 3 4\nusemtl b\nf 2 5 3\n");
+  small.json()["meshes"][0] = {{"name", "two"}, {"file", "two.obj"}, {"up", "z"}, {"scale", 1}};
+  small.json()["objects"][0].erase("material");
+  small.json()["objects"][0]["materials"] = {1, 0};
+  small.json()["version"] = 2;
+  const Scene scene = read_scene(small.write());
+  const SceneMesh& two = scene.meshes[0];
+  EXPECT_EQ(two.n_slots, 2u);
+  ASSERT_EQ(two.mesh.triangles.size(), 3u);
+  const int slots[] = {0, 1, 0};
+  for (std::size_t t = 0; t < 3; ++t)
+    for (const std::uint32_t v : two.mesh.triangles[t]) EXPECT_EQ(two.looks.slots[v], slots[t]);
+  EXPECT_EQ(scene.material_of(scene.objects[0], 0).name, "glass");
+  EXPECT_EQ(scene.material_of(scene.objects[0], 1).name, "stone");
+  EXPECT_TRUE(scene.is_double_sided(scene.objects[0]));
 }
 
 TEST(Scene, MeshesComeUprightScaledAndWithNormals) {
@@ -186,7 +255,7 @@ TEST(Scene, BadScenesAreRefusedWithThePlace) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const std::vector<Spoiling> spoilings{
       {"", "\"format\" is not", [](Json& j) { j["format"] = "viewcell-cells"; }},
-      {"version", "version 2", [](Json& j) { j["version"] = 2; }},
+      {"version", "version 3", [](Json& j) { j["version"] = 3; }},
       {"", "has no \"objects\"", [](Json& j) { j.erase("objects"); }},
       {"objects", "is not an array", [](Json& j) { j["objects"] = 3; }},
       {"objects[1].mesh", "2 is out of range", [](Json& j) { j["objects"][1]["mesh"] = 2; }},
@@ -229,6 +298,39 @@ TEST(Scene, BadScenesAreRefusedWithThePlace) {
       {"gone.ply", "cannot open", [](Json& j) { j["meshes"][1]["file"] = "gone.ply"; }},
       {"materials[1].base_color_texture", "leaves the file's folder",
        [](Json& j) { j["materials"][1]["base_color_texture"] = "../g.png"; }},
+      {"g.png", "cannot open", [](Json& j) { j["materials"][1]["base_color_texture"] = "g.png"; }},
+      {"materials[0].alpha", "'glass' is not opaque or mask",
+       [](Json& j) { j["materials"][0]["alpha"] = "glass"; }},
+      {"materials[0].alpha_cutoff", "is not within",
+       [](Json& j) { j["materials"][0]["alpha_cutoff"] = 2; }},
+      {"materials[0].wrap[1]", "'tile' is not repeat, clamp or mirror",
+       [](Json& j) {
+         j["materials"][0]["wrap"] = {"repeat", "tile"};
+       }},
+      {"materials[0].wrap", "is not two words",
+       [](Json& j) { j["materials"][0]["wrap"] = {"clamp"}; }},
+      {"materials[0].emissive[0]", "is not within",
+       [](Json& j) {
+         j["materials"][0]["emissive"] = {-1, 0, 0};
+       }},
+      {"materials[0].opacity", "is not within",
+       [](Json& j) { j["materials"][0]["opacity"] = 1.5; }},
+      {"objects[0]", "has both", [](Json& j) { j["objects"][0]["materials"] = {0}; }},
+      {"objects[0].materials", "2, but 'meshes/cube.ply' has 1",
+       [](Json& j) {
+         j["objects"][0].erase("material");
+         j["objects"][0]["materials"] = {0, 1};
+       }},
+      {"objects[0].materials[0]", "9 is out of range",
+       [](Json& j) {
+         j["objects"][0].erase("material");
+         j["objects"][0]["materials"] = {9};
+       }},
+      {"objects[0].materials", "is empty",
+       [](Json& j) {
+         j["objects"][0].erase("material");
+         j["objects"][0]["materials"] = Json::array();
+       }},
       {"materials[0].base_color[2]", "is not within",
        [](Json& j) { j["materials"][0]["base_color"][2] = 1.5; }},
       {"materials[0].double_sided", "is not true or false",

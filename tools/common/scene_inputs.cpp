@@ -28,6 +28,8 @@ void register_scene_files(Tool& tool, const Scene& scene, const std::filesystem:
   std::vector<NamedFile> files;
   for (const SceneMesh& mesh : scene.meshes)
     files.push_back({"a mesh of the scene", (scene_file.parent_path() / mesh.file).string()});
+  for (const ScenePicture& picture : scene.pictures)
+    files.push_back({"a picture of the scene", (scene_file.parent_path() / picture.file).string()});
   tool.reads(files);
   for (const auto& [file, remarks] : scene.remarks) tool.remark(file, remarks);
 }

@@ -1,5 +1,6 @@
 #include "depthcap/arguments.h"
 
+#include "common/picture_input.h"
 #include "common/scene_inputs.h"
 
 namespace viewcell {
@@ -23,6 +24,7 @@ void declare_arguments(Tool& tool, DepthcapArguments& a) {
       .show_default()
       .check(one_of({"embree", "gl"}));
   tool.add_option("--gl", &a.gl, "of engine gl: osmesa | egl").show_default();
+  declare_max_pixels(tool, &a.max_pixels);
   tool.add_output_folder("folder of captures to write", kCaptureFiles);
 }
 

@@ -1,6 +1,7 @@
 // What is typed at depthcap.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "capture/view.h"
@@ -13,6 +14,7 @@ struct DepthcapArguments {
   std::string cell_list = "all", slice;
   CaptureDensity density;
   std::string engine = "embree", gl = "osmesa";
+  std::optional<std::size_t> max_pixels;
 };
 
 void declare_arguments(Tool& tool, DepthcapArguments& arguments);

@@ -1,0 +1,86 @@
+#!/usr/bin/env bash
+# A level of another program becomes a scene that is baked and played with its pictures. First
+# argument: the folder of binaries.
+set -euo pipefail
+. "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
+start "$1"
+
+# A yard of 30 m: a floor with a picture, a block of two materials, a post. y is up.
+ball 12 3 >ball.off
+expect 0 "$bin/uvpatch" ball.off --faces 60 --texture-size 64 -o checker.obj
+cat >yard.mtl <<'X'
+newmtl floor
+Kd 1 1 1
+map_Kd checker.png
+newmtl red
+Kd 0.8 0.1 0.1
+newmtl blue
+Kd 0.1 0.1 0.8
+X
+{
+  echo mtllib yard.mtl
+  echo "v -15 0 15"; echo "v 15 0 15"; echo "v 15 0 -15"; echo "v -15 0 -15"
+  for height in 0 3; do
+    echo "v 3 $height -3"; echo "v 5 $height -3"; echo "v 5 $height -5"; echo "v 3 $height -5"
+  done
+  for height in 0 2; do
+    echo "v -4 $height 2"; echo "v -3.5 $height 2"; echo "v -3.5 $height 1.5"; echo "v -4 $height 1.5"
+  done
+  echo "vt 0 0"; echo "vt 10 0"; echo "vt 10 10"; echo "vt 0 10"
+  echo usemtl floor; echo "f 1/1 2/2 3/3 4/4"
+  for first in 5 13; do
+    a=$first b=$((first + 1)) c=$((first + 2)) d=$((first + 3)) e=$((first + 4)) f=$((first + 5)) g=$((first + 6)) h=$((first + 7))
+    echo usemtl red; echo "f $a $b $f $e"; echo "f $b $c $g $f"
+    echo usemtl blue; echo "f $c $d $h $g"; echo "f $d $a $e $h"; echo "f $e $f $g $h"
+  done
+} >yard.obj
+
+expect 0 "$bin/sceneimport" yard.obj --piece 10 -o yard --json report.json
+says report.json '.triangles > 20 and .objects == 18 and .pictures == 1 and .components == 3'
+says report.json '(.floor_m | fabs) < 1e-6'
+says report.json '.components_cut == 1 and (.size_m[0] - 30 | fabs) < 1e-6'
+cmp -s yard/textures/000.png checker.png || fail "the picture is not as it was"
+says yard/scene.json '.version == 2 and ([.materials[].name] | index("red")) != null'
+cp -r yard yard_1
+expect 0 "$bin/sceneimport" yard.obj --piece 10 -o yard -j 1
+diff -r yard yard_1 >"$log/diff" || fail "again, it is another scene"
+
+# Centimetres, z up, a pipe: the same place.
+awk '/^v /{print "v", 100*$2, -100*$4, 100*$3; next} {print}' yard.obj >yard_cm.obj
+expect 0 "$bin/sceneimport" yard_cm.obj --piece 10 --unit cm --up z -o yard_cm --json cm.json
+says cm.json '(.size_m[0] - 30 | fabs) < 1e-4 and (.size_m[2] - 3 | fabs) < 1e-4'
+
+# A floor 5 m up comes to the same place, and one that is named to where it is named.
+awk '/^v /{print "v", $2, $3 + 5, $4; next} {print}' yard.obj >yard_up.obj
+expect 0 "$bin/sceneimport" yard_up.obj --piece 10 -o yard_up --json up.json
+says up.json '(.floor_m - 5 | fabs) < 1e-5'
+expect 0 "$bin/sceneimport" yard_up.obj --piece 10 --floor 4 -o yard_four --json four.json
+says four.json '.floor_m == 4'
+
+# Through the whole chain, with its pictures.
+cat >path.json <<'X'
+{"format": "viewcell-path", "version": 1, "samples": [
+ {"time_s": 0, "eye": [-30, -30, 10], "forward": [1, 0, 0]},
+ {"time_s": 1, "eye": [-20, -20, 10], "forward": [0, 1, 0]}]}
+X
+expect 0 "$bin/hexcells" yard/scene.json --size 50 -o cells.json
+expect 0 "$bin/depthcap" yard/scene.json cells.json --cells path:path.json --resolution 256 -o captures
+expect 0 "$bin/svmesh" yard/scene.json cells.json captures --cells path:path.json -o sv
+expect 0 "$bin/mvmesh" yard/scene.json cells.json captures --cells path:path.json -o mv
+expect 0 "$bin/cellpack" yard/scene.json cells.json captures sv mv --cells path:path.json -o bundle
+rm -r yard
+expect 0 "$bin/play" bundle --path path.json --frames 6 --size 160x160 --modes frustum,raycast,hybrid --reference frustum --stats stats.json
+says stats.json '[.. | objects | select(.mode? == "raycast") | .psnr_covered_db?] | map(select(. != null)) | length == 0 or min > 40'
+
+# Faults.
+fault 1 "cannot open" "$bin/sceneimport" none.glb -o x
+fault 2 "--unit" "$bin/sceneimport" yard.obj --unit feet -o x
+fault 2 "--up" "$bin/sceneimport" yard.obj --up w -o x
+fault 2 "--piece" "$bin/sceneimport" yard.obj --piece 0 -o x
+printf 'v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n' >flat.obj
+fault 1 "pieces" "$bin/sceneimport" yard.obj --unit 10000 -o x
+fault 1 "no area" "$bin/sceneimport" flat.obj -o x
+mv checker.png away.png
+fault 1 "checker.png" "$bin/sceneimport" yard.obj -o x
+[ "$n_faults" -eq 7 ] || fail "$n_faults faults were tried"
+echo "sceneimport.sh: all well"
