@@ -14,6 +14,7 @@ set(VIEWCELL_ROOMS
   "scene: base image mesh formats"
   "import: base image mesh formats scene"
   "cells: base mesh report scene"
+  "walk: base rays scene cells"
   "park: base mesh formats pm scene cells"
   "visibility: mesh"
   "capture: base rays image gl scene cells"

@@ -47,6 +47,22 @@ over_output "-o and --json would write the same file" parkgen -o x --json x/mesh
 over_output "-o and --json are one file" parkgen -o x --json ./x
 nowhere parkgen -o x --json no/x.json
 
+# --- sceneimport, walkpath ---
+over_input "-o is the level that is read" sceneimport ball.off -o ball.off
+over_input "--json is the level that is read" sceneimport ball.off -o x --json ball.off
+over_output "-o and --json would write the same file" sceneimport ball.off -o x --json x/scene.json
+nowhere sceneimport ball.off -o x --json no/x.json
+mkdir textures
+cp patch.png textures/000.png
+sed 's|patch.png|textures/000.png|' patch.mtl >textured.mtl
+sed 's|patch.mtl|textured.mtl|' patch.obj >textured.obj
+over_input "-o would write over a picture of the level" sceneimport textured.obj -o .
+rm -r textures textured.*
+over_input "-o is the scene that is read" walkpath "${scene[@]}" -o park/scene.json
+over_input "--json is the file of cells" walkpath "${scene[@]}" -o x --json cells.json
+over_output "-o and --json are one file" walkpath "${scene[@]}" -o x --json x
+nowhere walkpath "${scene[@]}" -o no/x
+
 # --- hexcells: by other spellings and links, too ---
 ln -s scene.json park/link.json
 ln -s park linked

@@ -64,6 +64,15 @@ cat >path.json <<'X'
  {"time_s": 1, "eye": [-20, -20, 10], "forward": [0, 1, 0]}]}
 X
 expect 0 "$bin/hexcells" yard/scene.json --size 50 -o cells.json
+# A walk over the yard, around what stands there; to a place, and not to one.
+expect 0 "$bin/walkpath" yard/scene.json cells.json --seconds 6 -o walk.json --json walk_report.json
+says walk_report.json '.seconds == 6 and .room_share > 0.8 and .room_share < 1'
+says walk.json '[.samples[].eye[2]] | all((. - 18 | fabs) < 0.01)'
+expect 0 "$bin/walkpath" yard/scene.json cells.json --through 100,-100 --through -100,100 -o - -q
+says "$log/out" '(.samples[0].eye[0] - 100 | fabs) < 3 and (.samples[-1].eye[1] - 100 | fabs) < 3'
+cp "$log/out" one
+expect 0 "$bin/walkpath" yard/scene.json cells.json --through 100,-100 --through -100,100 -o - -q -j 1
+cmp -s "$log/out" one || fail "threads make another walk"
 expect 0 "$bin/depthcap" yard/scene.json cells.json --cells path:path.json --resolution 256 -o captures
 expect 0 "$bin/svmesh" yard/scene.json cells.json captures --cells path:path.json -o sv
 expect 0 "$bin/mvmesh" yard/scene.json cells.json captures --cells path:path.json -o mv
@@ -73,6 +82,9 @@ expect 0 "$bin/play" bundle --path path.json --frames 6 --size 160x160 --modes f
 says stats.json '[.. | objects | select(.mode? == "raycast") | .psnr_covered_db?] | map(select(. != null)) | length == 0 or min > 40'
 
 # Faults.
+cp -r yard_1 yard
+fault 2 "is not X,Y" "$bin/walkpath" yard/scene.json cells.json --through here -o x
+fault 1 "was made for another scene" "$bin/walkpath" yard_cm/scene.json cells.json -o x
 fault 1 "cannot open" "$bin/sceneimport" none.glb -o x
 fault 2 "--unit" "$bin/sceneimport" yard.obj --unit feet -o x
 fault 2 "--up" "$bin/sceneimport" yard.obj --up w -o x
@@ -82,5 +94,5 @@ fault 1 "pieces" "$bin/sceneimport" yard.obj --unit 10000 -o x
 fault 1 "no area" "$bin/sceneimport" flat.obj -o x
 mv checker.png away.png
 fault 1 "checker.png" "$bin/sceneimport" yard.obj -o x
-[ "$n_faults" -eq 7 ] || fail "$n_faults faults were tried"
+[ "$n_faults" -eq 9 ] || fail "$n_faults faults were tried"
 echo "sceneimport.sh: all well"

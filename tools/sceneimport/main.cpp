@@ -10,6 +10,7 @@
 #include "common/picture_input.h"
 #include "common/provenance.h"
 #include "common/tool.h"
+#include "formats/texture_list.h"
 #include "import/import_level.h"
 
 namespace viewcell {
@@ -83,8 +84,19 @@ void hint_at_unit(const Tool& tool, const ImportedLevel& level) {
   tool.say(text);
 }
 
-int run(const Tool& tool, Options& o) {
+// Files beside the level that it names are inputs, too.
+void register_pictures(Tool& tool, const std::string& level) {
+  std::vector<NamedFile> files;
+  const std::filesystem::path folder = std::filesystem::path(level).parent_path();
+  for (const ListedTexture& texture : list_textures(level))
+    if (!texture.name.starts_with("images["))
+      files.push_back({"a picture of the level", (folder / texture.name).string()});
+  tool.reads(files);
+}
+
+int run(Tool& tool, Options& o) {
   o.import.unit_m = parse_unit(o.unit);
+  register_pictures(tool, o.level);
   o.import.limits = mesh_limits(tool);
   o.import.image_limits = {o.max_pixels};
   ImportedLevel level = import_level(o.level, o.import);
