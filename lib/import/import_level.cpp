@@ -30,13 +30,20 @@ Wrap wrap_of(int gl_wrap) {
   return gl_wrap == GlbSampler::kMirrored ? Wrap::mirror : Wrap::repeat;
 }
 
-// z up, in the scene's units.
-void turn_and_scale(TriMesh& mesh, const ImportOptions& options) {
+// z up, in the scene's units. Gives the height of the mesh's offset in metres.
+double turn_and_scale(TriMesh& mesh, const ImportOptions& options) {
+  double height = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    glm::vec3 unit(0);
+    unit[axis] = 1;
+    height += double(turn_up_axis(options.up, unit).z) * mesh.offset[axis];
+  }
   const auto scale = static_cast<float>(options.unit_m * kUnitsPerMetre);
   for (glm::vec3& p : mesh.positions) p = turn_up_axis(options.up, p) * scale;
   for (glm::vec3& n : mesh.normals) n = turn_up_axis(options.up, n);
   for (glm::vec3& n : mesh.corner_normals) n = turn_up_axis(options.up, n);
   mesh.offset = glm::dvec3(0);  // wherever it was, the scene's origin is there
+  return options.unit_m * height;
 }
 
 class LevelImporter {
@@ -49,8 +56,7 @@ class LevelImporter {
     TriMesh mesh = read_surface(file_, &source, options_.limits);
     out_.hash = source.hash;
     out_.remarks = source.remarks;
-    turn_and_scale(mesh, options_);
-    set_on_floor(mesh);
+    set_on_floor(mesh, turn_and_scale(mesh, options_));
     add_materials(mesh);
     check_extent(mesh);
     out_.pieces = cut_into_pieces(mesh, {.size = options_.piece_m * kUnitsPerMetre});
@@ -61,9 +67,9 @@ class LevelImporter {
   }
 
  private:
-  void set_on_floor(TriMesh& mesh) {
-    out_.floor_m = options_.floor_m.value_or(find_floor(mesh, 1 / kUnitsPerMetre));
-    const auto height = static_cast<float>(out_.floor_m * kUnitsPerMetre);
+  void set_on_floor(TriMesh& mesh, double offset_m) {
+    out_.floor_m = options_.floor_m.value_or(find_floor(mesh, 1 / kUnitsPerMetre) + offset_m);
+    const auto height = static_cast<float>((out_.floor_m - offset_m) * kUnitsPerMetre);
     for (glm::vec3& p : mesh.positions) p.z -= height;
   }
 
@@ -93,7 +99,7 @@ class LevelImporter {
   Material convert(const PicturedMaterial& m, const TriMesh& mesh) {
     Material out;
     out.name = m.name;
-    // A glTF's factor is in its vertices' colours already.
+    // A glTF's factor is in its vertices' colours already; an OBJ's stand in place of its Kd.
     out.has_vertex_colors = !mesh.colors.empty();
     out.base_color = out.has_vertex_colors
                          ? glm::vec3(1)

@@ -15,8 +15,7 @@
 namespace viewcell {
 
 /// Scenes are baked and walked through at an eye height of kEyeHeight units (hexcells, 16 to 20);
-/// people have theirs at
-/// kEyeHeight_m.
+/// people have theirs at kEyeHeight_m.
 inline constexpr double kEyeHeight = 18, kEyeHeight_m = 1.6;
 inline constexpr double kUnitsPerMetre = kEyeHeight / kEyeHeight_m;
 
@@ -46,8 +45,9 @@ struct ImportedLevel {
   Remarks remarks;
 };
 
-/// The height, z up, that most of the area lies at that faces upwards: 5 cm count as one, and the
-/// lowest of several. 0 where nothing faces upwards. unit_m: metres of the mesh's 1.
+/// The height above the mesh's offset, z up, that most of the area lies at that faces upwards: 5 cm
+/// count as one, and the lowest of several. 0 where nothing faces upwards. unit_m: metres of the
+/// mesh's 1.
 double find_floor(const TriMesh& mesh, double unit_m);
 
 /// The floor comes to z = 0, where the ground is. Throws InputError for a level that has no

@@ -157,19 +157,19 @@ StandingRoom find_standing_room(const Scene& scene, const CellSet& cells,
 
 std::vector<int> connect_parts(const StandingRoom& room) {
   std::vector<int> part(room.is_free.size(), -1);
-  std::vector<std::size_t> sizes, todo;
+  std::vector<std::size_t> sizes, pending;
   for (std::size_t seed = 0; seed < part.size(); ++seed) {
     if (room.is_free[seed] == 0 || part[seed] >= 0) continue;
     const int number = static_cast<int>(sizes.size());
     sizes.push_back(0);
-    todo = {seed};
+    pending = {seed};
     part[seed] = number;
-    while (!todo.empty()) {
-      const std::size_t p = todo.back();
-      todo.pop_back();
+    while (!pending.empty()) {
+      const std::size_t p = pending.back();
+      pending.pop_back();
       ++sizes.back();
       for (const std::size_t q : room.neighbours(p))
-        if (part[q] < 0) part[q] = number, todo.push_back(q);
+        if (part[q] < 0) part[q] = number, pending.push_back(q);
     }
   }
   // The largest first; of equal ones the first.

@@ -57,6 +57,11 @@ says up.json '(.floor_m - 5 | fabs) < 1e-5'
 expect 0 "$bin/sceneimport" yard_up.obj --piece 10 --floor 4 -o yard_four --json four.json
 says four.json '.floor_m == 4'
 
+# Far from the origin heights are the file's, too.
+awk '/^v /{printf "v %.1f %.1f %.1f\n", 4000000 + $2, $3 + 5000000, 4000000 + $4; next} {print}' yard.obj >yard_far.obj
+expect 0 "$bin/sceneimport" yard_far.obj --piece 10 -o yard_far --json far.json
+says far.json '(.floor_m - 5000000 | fabs) < 0.01 and (.size_m[0] - 30 | fabs) < 0.01 and .objects > 10'
+
 # Through the whole chain, with its pictures.
 cat >path.json <<'X'
 {"format": "viewcell-path", "version": 1, "samples": [
