@@ -84,12 +84,14 @@ CellGeometry make_geometry(const Scene& scene, const CellMeshes& cell) {
   return out;
 }
 
-CentreTextures read_textures(const fs::path& captures, const CaptureSettings& settings,
-                             CentreId centre, const std::set<ObjectId>& objects) {
+CentreTextures read_textures(const Scene& scene, const fs::path& captures,
+                             const CaptureSettings& settings, CentreId centre,
+                             const std::set<ObjectId>& objects) {
   CentreCaptures file(capture_file_of(captures, centre), settings);
   CentreTextures out;
   for (const ObjectId object : objects)
-    if (const auto tile = file.read(object)) append_tile(*tile, out);
+    if (const auto tile = file.read(object))
+      append_tile(*tile, scene.is_masked(scene.objects[index(object)]), out);
   return out;
 }
 
@@ -140,6 +142,7 @@ BundleManifest make_manifest(const Scene& scene, const CellSet& cells, const Che
   manifest.meshes = hash_hex(hashes);
   manifest.resolution_px = checked.settings.density.resolution_px;
   manifest.texture_format = format;
+  manifest.has_masks = scene.has_masks();
   manifest.cells = list;
   manifest.centres = centres_with_tiles(checked.tiles);
   manifest.made_by = made_by;
@@ -178,7 +181,7 @@ constexpr double kNowhere = -255e3;  // a thousand times the range of codes away
 
 }  // namespace
 
-void append_tile(const CaptureTile& tile, CentreTextures& textures) {
+void append_tile(const CaptureTile& tile, bool is_masked, CentreTextures& textures) {
   const auto& depths = tile.inverse_depth.pixels;
   const auto [lo, hi] = std::minmax_element(depths.begin(), depths.end());
   BundleTile out;
@@ -191,8 +194,9 @@ void append_tile(const CaptureTile& tile, CentreTextures& textures) {
     out.up[k] = tile.view.up[k], out.forward[k] = tile.view.forward[k];
   }
   out.focal_px = tile.view.focal_px;
-  out.code_scale = *hi > *lo ? 255.0 / (static_cast<double>(*hi) - *lo) : 0.0;
-  out.code_bias = -out.code_scale * *lo;
+  const double farthest = is_masked ? 1 : 0;  // its code
+  out.code_scale = *hi > *lo ? (255.0 - farthest) / (static_cast<double>(*hi) - *lo) : 0.0;
+  out.code_bias = farthest - out.code_scale * *lo;
   // Of a view that shows nothing of the object, as from behind a wall of one side, no texel is at
   // any depth; with neither scale nor bias all would be at every depth, and black.
   if (!(*hi > 0)) out.code_bias = kNowhere;
@@ -200,7 +204,10 @@ void append_tile(const CaptureTile& tile, CentreTextures& textures) {
   textures.tiles.push_back(out);
   for (std::size_t i = 0; i < depths.size(); ++i) {
     const RgbaFloat& c = tile.color.pixels[i];
-    const double code = std::clamp(out.code_scale * depths[i] + out.code_bias, 0.0, 255.0);
+    const bool shows_nothing = is_masked && !(c[3] > 0.5f);
+    const double code =
+        shows_nothing ? 0.0
+                      : std::clamp(out.code_scale * depths[i] + out.code_bias, farthest, 255.0);
     textures.texels.push_back({srgb8_of_half(c[0]), srgb8_of_half(c[1]), srgb8_of_half(c[2]),
                                static_cast<std::uint8_t>(code + 0.5)});
   }
@@ -225,8 +232,8 @@ PackCounts pack_bundle(const Scene& scene, const CellSet& cells, const PackInput
   };
   parallel_for(list.size(), n_threads, pack_cell, progress);
   const auto pack_centre = [&](std::size_t i) {
-    const CentreTextures textures =
-        read_textures(inputs.captures, checked.settings, centres[i], checked.tiles.at(centres[i]));
+    const CentreTextures textures = read_textures(scene, inputs.captures, checked.settings,
+                                                  centres[i], checked.tiles.at(centres[i]));
     writer.write(centres[i], textures);
     const std::lock_guard lock(mutex);
     counts.texel_bytes += textures.texels.size() * sizeof(Rgba8);

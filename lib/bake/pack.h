@@ -28,7 +28,8 @@ PackCounts pack_bundle(const Scene& scene, const CellSet& cells, const PackInput
                        const std::filesystem::path& bundle, int n_threads,
                        const Progress& progress);
 
-/// Encodes a filled capture as a tile: appends its texels.
-void append_tile(const CaptureTile& tile, CentreTextures& textures);
+/// Encodes a filled capture as a tile: appends its texels. is_masked: of an object with masks,
+/// where code 0 says that a texel shows nothing of it.
+void append_tile(const CaptureTile& tile, bool is_masked, CentreTextures& textures);
 
 }  // namespace viewcell

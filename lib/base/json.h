@@ -20,8 +20,8 @@ Json parse_json(const std::string& text, const std::filesystem::path& file);
 
 /// Versions of a format that are read: one, or first to last.
 struct JsonVersions {
-  JsonVersions(int only) : first(only), last(only) {}
-  JsonVersions(int first_in, int last_in) : first(first_in), last(last_in) {}
+  constexpr JsonVersions(int only) : first(only), last(only) {}
+  constexpr JsonVersions(int first_in, int last_in) : first(first_in), last(last_in) {}
   int first, last;
 };
 

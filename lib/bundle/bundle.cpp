@@ -32,13 +32,13 @@ Json format_identity(const Kind& kind, int id, const std::string& key) {
 }
 
 // A tile's texels as BC3 blocks and back; tiles lie one after another, without gaps.
-std::vector<std::uint8_t> encode_tiles(const CentreTextures& t) {
+std::vector<std::uint8_t> encode_tiles(const CentreTextures& t, ZeroAlpha zero) {
   std::vector<std::uint8_t> blocks;
   for (const BundleTile& tile : t.tiles) {
     ImageRgba8 image(tile.width_px, tile.height_px);
     std::copy_n(t.texels.begin() + static_cast<std::ptrdiff_t>(tile.first_texel),
                 image.pixels.size(), image.pixels.begin());
-    const BlockImage encoded = encode_blocks(image, BlockFormat::bc3);
+    const BlockImage encoded = encode_blocks(image, BlockFormat::bc3, zero);
     blocks.insert(blocks.end(), encoded.blocks.begin(), encoded.blocks.end());
   }
   return blocks;
@@ -96,6 +96,10 @@ void check_scene(const Scene& scene, const BundleManifest& manifest, const fs::p
   }
   if (scene.hash != manifest.scene_hash)
     throw InputError((bake / "scene.json").string(), "", kChanged);
+  if (scene.has_masks() && !manifest.has_masks)
+    throw InputError((bake / "scene.json").string(), "materials",
+                     "have masks, and the bundle was packed when tiles did not tell their holes: "
+                     "pack it again with cellpack");
 }
 
 void check_cells(const CellSet& cells, const BundleManifest& manifest,
@@ -188,12 +192,12 @@ std::string write_cell_geometry(const fs::path& file, CellId cell, const std::st
 }
 
 std::string write_centre_textures(const fs::path& file, CentreId centre, const std::string& key,
-                                  const CentreTextures& t, TextureFormat format) {
+                                  const CentreTextures& t, TextureFormat format, ZeroAlpha zero) {
   SectionWriter writer(kCentreKind.number);
   writer.add_bytes("INFO", format_identity(kCentreKind, static_cast<int>(centre), key).dump());
   writer.add("TILES", t.tiles);
   if (format == TextureFormat::bc3)
-    writer.add("BC3", encode_tiles(t));
+    writer.add("BC3", encode_tiles(t, zero));
   else
     writer.add("TEXELS", t.texels);
   return hash_hex(writer.write(file));

@@ -9,6 +9,7 @@
 #include "base/folder_lock.h"
 #include "bundle/representation.h"
 #include "cells/cells.h"
+#include "image/bc.h"
 #include "image/image.h"
 #include "scene/scene.h"
 
@@ -40,7 +41,8 @@ struct BundleTile {
   std::int32_t source_px = 0;
   double eye[3] = {}, right[3] = {}, up[3] = {}, forward[3] = {};
   double focal_px = 1;
-  /// A texel's alpha is code = scale / depth + bias, rounded, 0..255 from far to near.
+  /// A texel's alpha is code = scale / depth + bias, rounded, 0..255 from far to near; of objects
+  /// with masks 1..255, and 0 where the crop shows nothing of the object.
   double code_scale = 0, code_bias = 0;
   std::uint64_t first_texel = 0;  ///< row by row from here
 };
@@ -60,6 +62,8 @@ struct BundleManifest {
   std::string meshes;      ///< hash of the weighted meshes' hashes
   int resolution_px = 0;
   TextureFormat texture_format = TextureFormat::rgba8;
+  /// Whether the scene has masks: bundles that were packed before tiles told their holes say no.
+  bool has_masks = false;
   std::vector<CellId> cells;
   std::vector<CentreId> centres;
   Json made_by;
@@ -111,7 +115,7 @@ std::string write_cell_geometry(const std::filesystem::path& file, CellId cell,
                                 const std::string& key, const CellGeometry& geometry);
 std::string write_centre_textures(const std::filesystem::path& file, CentreId centre,
                                   const std::string& key, const CentreTextures& textures,
-                                  TextureFormat format);
+                                  TextureFormat format, ZeroAlpha zero = ZeroAlpha::nearest);
 Json format_manifest(const BundleManifest& manifest);
 inline constexpr const char* kManifestName = "bundle.json";
 

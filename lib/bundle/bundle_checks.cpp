@@ -62,7 +62,7 @@ void check_view(const BundleTile& tile, const glm::dvec3& eye, const SectionRead
   if (!(tile.focal_px >= 1e-3 && tile.focal_px <= 1e9))
     reader.fail("TILES", "has a focal length that is not within 0.001 to 1e9 px");
   if (!(std::isfinite(tile.code_scale) && tile.code_scale >= 0) ||
-      !(std::isfinite(tile.code_bias) && tile.code_bias <= 0))
+      !(std::isfinite(tile.code_bias) && tile.code_bias <= 1))
     reader.fail("TILES", "has a depth code that is not finite or does not fall with the depth");
 }
 

@@ -112,8 +112,9 @@ void BundleWriter::write(CellId cell, const CellGeometry& geometry) {
 
 void BundleWriter::write(CentreId centre, const CentreTextures& textures) {
   const std::string name = centre_name(centre);
-  add_file(name, write_centre_textures(bake_.path() / name, centre, key_, textures,
-                                       manifest_.texture_format));
+  add_file(name, write_centre_textures(
+                     bake_.path() / name, centre, key_, textures, manifest_.texture_format,
+                     manifest_.has_masks ? ZeroAlpha::exact : ZeroAlpha::nearest));
 }
 
 void BundleWriter::write_copy(const std::string& name, std::string_view bytes,

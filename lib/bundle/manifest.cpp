@@ -10,7 +10,8 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* kFormat = "viewcell-bundle";
-constexpr int kVersion = 2;
+// The second says that there are masks; without them the first is written.
+constexpr JsonVersions kVersions{2, 3};
 constexpr const char* kRemedy = "pack the bundle again with cellpack";
 
 std::string numbered(const char* pattern, int number) {
@@ -52,7 +53,7 @@ TextureFormat read_texture_format(const JsonCursor& cursor) {
 // All but "key", "files" and "hash".
 Json format_bake(const BundleManifest& m) {
   return {{"format", kFormat},
-          {"version", kVersion},
+          {"version", m.has_masks ? kVersions.last : kVersions.first},
           {"made_by", m.made_by},
           {"scene_hash", m.scene_hash},
           {"cells_hash", m.cells_hash},
@@ -112,9 +113,10 @@ Json format_manifest(const BundleManifest& m) {
 
 BundleManifest read_manifest(const fs::path& file) {
   refuse_special(file);
-  const Json json = read_json(file, kFormat, kVersion, kRemedy);
+  const Json json = read_json(file, kFormat, kVersions, kRemedy);
   const JsonCursor root(json, file);
   BundleManifest m;
+  m.has_masks = root.at("version").integer(kVersions.first, kVersions.last) == kVersions.last;
   m.made_by = root.at("made_by").value();
   m.scene_hash = read_hash(root.at("scene_hash"));
   m.cells_hash = read_hash(root.at("cells_hash"));

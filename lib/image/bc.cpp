@@ -85,6 +85,31 @@ void decode_alpha(const std::uint8_t* bytes, Block& block) {
     block[i][3] = static_cast<std::uint8_t>(palette[indices >> 3 * i & 7]);
 }
 
+// Endpoints in ascending order: six levels between them, then 0 and 255.
+void encode_alpha_with_zero(const Block& block, std::uint8_t* bytes) {
+  int least = 255, most = 1;
+  for (const Rgba8& pixel : block) {
+    if (pixel[3] == 0) continue;
+    least = std::min<int>(least, pixel[3]), most = std::max<int>(most, pixel[3]);
+  }
+  const int range = std::max(most - least, 0);
+  bytes[0] = static_cast<std::uint8_t>(std::min(least, most));
+  bytes[1] = static_cast<std::uint8_t>(most);
+  std::uint64_t indices = 0;
+  for (std::size_t i = 0; i < 16; ++i) {
+    // Its level, from the first endpoint to the second; in the file the endpoints come first.
+    const int level = range == 0 ? 0 : (5 * (block[i][3] - least) + range / 2) / range;
+    const int index = block[i][3] == 0 ? 6 : level == 0 ? 0 : level == 5 ? 1 : level + 1;
+    indices |= static_cast<std::uint64_t>(index) << 3 * i;
+  }
+  for (std::size_t i = 0; i < 6; ++i)
+    bytes[2 + i] = static_cast<std::uint8_t>(indices >> 8 * i & 255);
+}
+
+bool has_zero_alpha(const Block& block) {
+  return std::any_of(block.begin(), block.end(), [](const Rgba8& pixel) { return pixel[3] == 0; });
+}
+
 void scatter_block(const Block& block, int x0, int y0, ImageRgba8& image) {
   for (int y = y0; y < std::min(y0 + 4, image.height_px); ++y)
     for (int x = x0; x < std::min(x0 + 4, image.width_px); ++x)
@@ -98,13 +123,15 @@ std::size_t block_bytes(BlockFormat format, int width_px, int height_px) {
          static_cast<std::size_t>(blocks_along(height_px)) * bytes_of_block(format);
 }
 
-BlockImage encode_blocks(const ImageRgba8& image, BlockFormat format) {
+BlockImage encode_blocks(const ImageRgba8& image, BlockFormat format, ZeroAlpha zero) {
   BlockImage out{format, image.width_px, image.height_px, {}};
   out.blocks.resize(block_bytes(format, image.width_px, image.height_px));
   for_each_block(image.width_px, image.height_px, [&](std::size_t number, int x, int y) {
     const Block block = gather_block(image, x, y, format);
-    stb_compress_dxt_block(&out.blocks[number * bytes_of_block(format)], block[0].data(),
-                           format == BlockFormat::bc3, STB_DXT_HIGHQUAL);
+    std::uint8_t* bytes = &out.blocks[number * bytes_of_block(format)];
+    stb_compress_dxt_block(bytes, block[0].data(), format == BlockFormat::bc3, STB_DXT_HIGHQUAL);
+    if (format == BlockFormat::bc3 && zero == ZeroAlpha::exact && has_zero_alpha(block))
+      encode_alpha_with_zero(block, bytes);
   });
   return out;
 }

@@ -35,8 +35,10 @@ GlProgram make_program(const Gl& gl, const char* name, int n_views, DrawnSides s
                    make_hybrid_fragment_glsl(n_views, sides));
 }
 
-bool shows_both_sides(const Scene& scene, const SceneObject& object) {
-  return scene.is_double_sided(object) || scene.mesh_of(object).has_twins;
+DrawnSides sides_of(const Scene& scene, const SceneObject& object) {
+  if (scene.is_masked(object)) return DrawnSides::masked;
+  if (scene.is_double_sided(object) || scene.mesh_of(object).has_twins) return DrawnSides::both;
+  return DrawnSides::front;
 }
 
 glm::vec3 middle_of(const ReadyObject& object) {
@@ -72,12 +74,12 @@ HybridRenderer::HybridRenderer(const Gl& gl, const Scene& scene, const HybridOpt
     : gl_(gl),
       scene_(scene),
       options_(options),
-      fronts_(make_programs(DrawnSides::front)),
       edges_(gl, "edges", make_hybrid_vertex_glsl(0, DrawnSides::front, scene.lighting),
              make_edge_fragment_glsl()) {
-  for (const SceneObject& object : scene.objects)
-    if (!both_sides_ && shows_both_sides(scene, object))
-      both_sides_ = make_programs(DrawnSides::both);
+  for (const SceneObject& object : scene.objects) {
+    const DrawnSides sides = sides_of(scene, object);
+    if (!programs_.contains(sides)) programs_[sides] = make_programs(sides);
+  }
   const std::size_t alignment = uniform_alignment(gl);
   block_stride_ = (sizeof(DrawBlock) + alignment - 1) / alignment * alignment;
 }
@@ -86,6 +88,10 @@ HybridRenderer::Programs HybridRenderer::make_programs(DrawnSides sides) const {
   return {make_program(gl_, "two views", 2, sides, scene_.lighting),
           make_program(gl_, "one view", 1, sides, scene_.lighting),
           make_program(gl_, "lit mesh", 0, sides, scene_.lighting)};
+}
+
+const HybridRenderer::Programs& HybridRenderer::programs_for(const SceneObject& object) const {
+  return programs_.at(sides_of(scene_, object));
 }
 
 void HybridRenderer::upload_blocks(const ResidentCell& cell, const HybridPlan& plan,
@@ -101,7 +107,8 @@ void HybridRenderer::upload_blocks(const ResidentCell& cell, const HybridPlan& p
         glm::vec4(style == HybridStyle::textured ? mean_color(scene_, scene_.material_of(object, 0))
                                                  : kind_color(ready.kind),
                   1);
-    block.weights = {draw.views.weight[0], draw.views.weight[1], 0, 0};
+    block.weights = {draw.views.weight[0], draw.views.weight[1],
+                     scene_.is_double_sided(object) ? 1 : 0, 0};
     block.eyes[2] = glm::vec4(eye, 1);
     for (std::size_t i = 0; i < 2; ++i) {
       if (draw.views.view[i] < 0) continue;
@@ -141,15 +148,15 @@ void HybridRenderer::draw(const Camera& camera, const ResidentCell& cell, GLuint
     gl_.ProgramUniformMatrix4fv(program.id(), program.uniform("clip_from_local"), 1, GL_FALSE,
                                 glm::value_ptr(clip_from_local));
   };
-  for (const Programs* p : {&fronts_, both_sides_ ? &*both_sides_ : &fronts_})
-    set_clip(p->two_views), set_clip(p->one_view), set_clip(p->lit);
+  for (const auto& [sides, p] : programs_)
+    set_clip(p.two_views), set_clip(p.one_view), set_clip(p.lit);
   set_clip(edges_);
   const GlProgram* current = nullptr;
   for (std::size_t i = 0; i < plan.outside.size(); ++i) {
     const bool blends = plan.outside[i].views.weight[1] > 0;
     const SceneObject& object =
         scene_.objects[index(cell.ready->objects[plan.outside[i].slot].object)];
-    const Programs& programs = shows_both_sides(scene_, object) ? *both_sides_ : fronts_;
+    const Programs& programs = programs_for(object);
     const GlProgram& program = style != HybridStyle::textured
                                    ? programs.lit
                                    : (blends ? programs.two_views : programs.one_view);

@@ -1,7 +1,7 @@
 // Draws a cell's outside objects with projective textures.
 #pragma once
 
-#include <optional>
+#include <map>
 
 #include "gl/framebuffer.h"
 #include "play/hybrid_shaders.h"
@@ -50,6 +50,7 @@ class HybridRenderer {
     GlProgram two_views, one_view, lit;
   };
   Programs make_programs(DrawnSides sides) const;
+  const Programs& programs_for(const SceneObject& object) const;
   void upload_blocks(const ResidentCell& cell, const HybridPlan& plan, const glm::vec3& eye,
                      HybridStyle style);
   void draw_one(const ResidentCell& cell, const HybridPlan& plan, std::size_t i) const;
@@ -58,8 +59,7 @@ class HybridRenderer {
   const Gl& gl_;
   const Scene& scene_;
   HybridOptions options_;
-  Programs fronts_;
-  std::optional<Programs> both_sides_;  // where some object needs it
+  std::map<DrawnSides, Programs> programs_;  // those that some object needs
   GlProgram edges_;
   GlBuffer blocks_;
   std::size_t block_stride_ = 0;

@@ -8,7 +8,7 @@ namespace {
 constexpr const char* kBlock = R"(
 layout(std140, binding = 0) uniform DrawBlock {
   vec4 base_color;     // linear
-  vec4 weights;        // of views 0 and 1
+  vec4 weights;        // of views 0 and 1; z: 1 where backs are seen
   vec4 rows[6];        // s, t, q of views 0, 1
   ivec4 regions[2];    // first texel, width, height
   vec4 codes[2];       // scale, bias, 1 / tolerance
@@ -60,6 +60,36 @@ vec4 guarded_fetch(vec3 stq, ivec4 region, vec4 code) {
 }
 )";
 
+// The same for surfaces with holes, where a texel of code 0 shows nothing of the object. Beside
+// it: the colour of texels that show the fragment or what lies before it, and their share. The rest
+// see through the place where the fragment is.
+const char* kMaskedFetch = R"(
+layout(binding = 0) uniform samplerBuffer texels;
+vec4 masked_fetch(vec3 stq, ivec4 region, vec4 code, out vec4 shown) {
+  shown = vec4(0);
+  if (region.y == 0 || stq.z <= 0.0) return vec4(0);
+  float r = 1.0 / stq.z;
+  vec2 at = clamp(stq.xy * r - 0.5, vec2(0), vec2(region.yz) - 1.001);
+  ivec2 corner = ivec2(at);
+  vec2 f = at - vec2(corner);
+  int i = region.x + corner.y * region.y + corner.x;
+  vec4 t00 = texelFetch(texels, i), t10 = texelFetch(texels, i + 1);
+  i += region.y;
+  vec4 t01 = texelFetch(texels, i), t11 = texelFetch(texels, i + 1);
+  vec4 codes = vec4(t00.a, t10.a, t01.a, t11.a);
+  vec4 nearer = (codes - (code.x * r + code.y)) * code.z;  // in tolerances
+  vec4 w = vec4((1.0 - f.x) * (1.0 - f.y), f.x * (1.0 - f.y), (1.0 - f.x) * f.y, f.x * f.y);
+  vec4 stops = w * step(0.5 / 255.0, codes) * step(-1.6, nearer);
+  shown = vec4(stops.x * t00.rgb + stops.y * t10.rgb + stops.z * t01.rgb + stops.w * t11.rgb,
+               dot(stops, vec4(1)));
+  vec4 far = nearer * nearer;
+  far *= far;
+  stops /= 1.0 + far * far;
+  return vec4(stops.x * t00.rgb + stops.y * t10.rgb + stops.z * t01.rgb + stops.w * t11.rgb,
+              dot(stops, vec4(1)));
+}
+)";
+
 // lit_color(); and how much view k counts, which on the other side of the triangle is nothing.
 const char* kFrontOnly = R"(
 vec3 lit_color() { return lit; }
@@ -91,6 +121,30 @@ std::string make_textured_main(int n_views) {
          "255.0);\n}\n";
 }
 
+// A view counts for holes where it sees the fragment's side, or the surface is drawn from behind
+// too. A fragment that no view shows, but none sees through, has the colour of what hides it.
+std::string make_masked_main(int n_views) {
+  std::string main =
+      "void main() {\n"
+      "  vec4 sum = vec4(0), stopped = vec4(0), shown;\n"
+      "  float counted = 0.0, side, counts;\n"
+      "  vec4 fetched;\n";
+  for (int k = 0; k < n_views; ++k) {
+    const std::string n = number(k);
+    main += "  side = side_weight(" + n + ");\n" + "  counts = weights[" + n +
+            "] * max(side, weights.z);\n" + "  fetched = masked_fetch(stq" + n + ", regions[" + n +
+            "], codes[" + n + "], shown);\n" + "  sum += weights[" + n + "] * side * fetched;\n" +
+            "  if (regions[" + n + "].y > 0 && stq" + n +
+            ".z > 0.0) stopped += counts * shown, counted += counts;\n";
+  }
+  return main +
+         "  if (stopped.a < 0.5 * counted) discard;\n"
+         "  bool is_seen = sum.w > 0.02;\n"
+         "  vec3 other = stopped.a > 0.02 ? stopped.rgb / stopped.a : lit_color();\n"
+         "  color = vec4(is_seen ? sum.rgb / sum.w : other, is_seen ? 1.0 : 254.0 / 255.0);\n"
+         "}\n";
+}
+
 }  // namespace
 
 std::string make_hybrid_vertex_glsl(int n_views, DrawnSides sides, const Lighting& lighting) {
@@ -103,7 +157,7 @@ std::string make_hybrid_vertex_glsl(int n_views, DrawnSides sides, const Lightin
                     "  vec4 p = vec4(position, 1);\n"
                     "  gl_Position = clip_from_local * p;\n"
                     "  lit = srgb_encode(shade(base_color.xyz, normalize(normal)));\n";
-  if (sides == DrawnSides::both)
+  if (sides != DrawnSides::front)
     out +=
         "  lit_back = srgb_encode(shade(base_color.xyz, -normalize(normal)));\n"
         "  local = position;\n";
@@ -117,8 +171,9 @@ std::string make_hybrid_vertex_glsl(int n_views, DrawnSides sides, const Lightin
 std::string make_hybrid_fragment_glsl(int n_views, DrawnSides sides) {
   const std::string out = "#version 450 core\n" + varyings("in", n_views, sides) +
                           "layout(location = 0) out vec4 color;\n" + kBlock +
-                          (sides == DrawnSides::both ? kBothSides : kFrontOnly);
+                          (sides != DrawnSides::front ? kBothSides : kFrontOnly);
   if (n_views == 0) return out + kLitMain;
+  if (sides == DrawnSides::masked) return out + kMaskedFetch + make_masked_main(n_views);
   return out + kGuardedFetch + make_textured_main(n_views);
 }
 

@@ -7,8 +7,12 @@
 
 namespace viewcell {
 
-/// Which sides of a surface are drawn. both: also where either has triangles of its own.
-enum class DrawnSides { front, both };
+/// What is drawn of a surface.
+enum class DrawnSides {
+  front,
+  both,   ///< also where either side has triangles of its own
+  masked  ///< with holes, as both: fragments that the views see through are discarded
+};
 
 /// n_views: 0 (lit only), 1, or 2 (blended). Of both sides each is lit on its own, and a view shows
 /// a fragment only from the eye's side of its triangle. Vertex inputs: 0 position (cell-local), 1

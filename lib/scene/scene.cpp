@@ -33,6 +33,17 @@ bool Scene::is_double_sided(const SceneObject& object) const {
                      [&](int m) { return materials[static_cast<std::size_t>(m)].double_sided; });
 }
 
+bool Scene::is_masked(const SceneObject& object) const {
+  return std::any_of(object.materials.begin(), object.materials.end(), [&](int m) {
+    return materials[static_cast<std::size_t>(m)].alpha == AlphaMode::mask;
+  });
+}
+
+bool Scene::has_masks() const {
+  return std::any_of(objects.begin(), objects.end(),
+                     [&](const SceneObject& object) { return is_masked(object); });
+}
+
 std::size_t count_triangles(const Scene& scene) {
   std::size_t n = 0;
   for (const SceneObject& object : scene.objects) n += scene.mesh_of(object).n_triangles;

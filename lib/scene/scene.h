@@ -89,6 +89,9 @@ struct Scene {
   }
   /// Whether some of its materials is seen from behind.
   bool is_double_sided(const SceneObject& object) const;
+  /// Whether some of its materials has holes.
+  bool is_masked(const SceneObject& object) const;
+  bool has_masks() const;
   /// The picture of a material as its sides say; nothing where it has none.
   MipTexture texture_of(const Material& material) const {
     if (material.picture < 0) return {};

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <numeric>
+#include <set>
 
 #include "base/parallel.h"
 #include "rays/ray_scene.h"
@@ -15,6 +16,7 @@ constexpr double kLeastUp = 0.7;      // of a floor's normal: 45 degrees
 constexpr int kMostPoints = 1 << 24;  // of the grid: it is made coarser beyond
 constexpr int kDirections = 16;       // in which something may stand near: one packet
 static_assert(kDirections == RayPacket::kSize);
+constexpr double kSightReach = 25;                         // times the eye's height
 constexpr std::array<double, 3> kHeights{0.3, 0.65, 1.0};  // of the eye's: knee, chest, eye
 
 class RoomFinder {
@@ -39,6 +41,13 @@ class RoomFinder {
     parallel_for(static_cast<std::size_t>(room_.rows), n_threads_, [&](std::size_t row) {
       for (int column = 0; column < room_.columns; ++column)
         test(room_.index(column, static_cast<int>(row)));
+    });
+    const auto n_blocks = static_cast<std::size_t>(room_.block_columns());
+    room_.sight.assign(n_blocks * static_cast<std::size_t>(room_.block_rows()), 0);
+    parallel_for(static_cast<std::size_t>(room_.block_rows()), n_threads_, [&](std::size_t row) {
+      for (std::size_t column = 0; column < n_blocks; ++column)
+        if (const auto point = first_free_in(static_cast<int>(column), static_cast<int>(row)))
+          room_.sight[row * n_blocks + column] = measure_sight(*point);
     });
     return std::move(room_);
   }
@@ -81,20 +90,52 @@ class RoomFinder {
     return eye.z - double(packet.far[0]);
   }
 
-  bool is_clear(const glm::dvec3& at) const {
-    RayPacket packet;
-    packet.start(glm::vec3(at), 0);
+  static RayMask aim_around(float reach, RayPacket& packet) {
     RayMask mask;
     for (int i = 0; i < kDirections; ++i) {
       const double angle = 2 * std::acos(-1.0) * i / kDirections;
       packet.set_direction(i, glm::vec3(std::cos(angle), std::sin(angle), 0));
-      packet.far[static_cast<std::size_t>(i)] = static_cast<float>(options_.clearance);
+      packet.far[static_cast<std::size_t>(i)] = reach;
       mask.set(i, true);
     }
+    return mask;
+  }
+
+  bool is_clear(const glm::dvec3& at) const {
+    RayPacket packet;
+    packet.start(glm::vec3(at), 0);
+    const RayMask mask = aim_around(static_cast<float>(options_.clearance), packet);
     top_.intersect(mask, packet);
     for (int i = 0; i < kDirections; ++i)
       if (packet.has_hit(i)) return false;
     return true;
+  }
+
+  std::optional<std::size_t> first_free_in(int block_column, int block_row) const {
+    constexpr int kSide = StandingRoom::kSightBlock;
+    for (int y = kSide * block_row; y < std::min(kSide * (block_row + 1), room_.rows); ++y)
+      for (int x = kSide * block_column; x < std::min(kSide * (block_column + 1), room_.columns);
+           ++x)
+        if (room_.is_free[room_.index(x, y)] != 0) return room_.index(x, y);
+    return {};
+  }
+
+  // Level rays all around: half for how near what they meet is, half for how many objects that is.
+  float measure_sight(std::size_t point) const {
+    const double eye_z = cells_.eye_height.middle(), reach = kSightReach * eye_z;
+    RayPacket packet;
+    packet.start(glm::vec3(glm::dvec3(room_.place(point), double(room_.floor_z[point]) + eye_z)),
+                 0);
+    const RayMask mask = aim_around(static_cast<float>(reach), packet);
+    top_.intersect(mask, packet);
+    std::set<std::uint32_t> met;
+    double nearness = 0;
+    for (int i = 0; i < kDirections; ++i) {
+      if (!packet.has_hit(i)) continue;
+      met.insert(packet.instance[static_cast<std::size_t>(i)]);
+      nearness += 1 - double(packet.far[static_cast<std::size_t>(i)]) / reach;
+    }
+    return static_cast<float>((nearness + double(met.size())) / (2 * kDirections));
   }
 
   const Scene& scene_;
@@ -116,6 +157,12 @@ WalkerOptions walker_of(double eye_height) {
 glm::dvec2 StandingRoom::place(std::size_t point) const {
   const auto n = static_cast<std::size_t>(columns);
   return origin + spacing * glm::dvec2(double(point % n), double(point / n));
+}
+
+std::size_t StandingRoom::block_of(std::size_t point) const {
+  const auto n = static_cast<std::size_t>(columns);
+  return point / n / kSightBlock * static_cast<std::size_t>(block_columns()) +
+         point % n / kSightBlock;
 }
 
 std::vector<std::size_t> StandingRoom::neighbours(std::size_t point) const {

@@ -22,11 +22,15 @@ WalkerOptions walker_of(double eye_height);
 
 /// One number a point, row by row.
 struct StandingRoom {
+  static constexpr int kSightBlock = 4;
   glm::dvec2 origin{0};  ///< of point (0, 0)
   double spacing = 1;
   int columns = 0, rows = 0;
   std::vector<float> floor_z;         ///< where is_free
   std::vector<std::uint8_t> is_free;  ///< one can stand there
+  /// How much there is to see, of what stands around, within 25 times the eye's height: [0, 1].
+  /// One number a block of kSightBlock x kSightBlock points, row by row.
+  std::vector<float> sight;
   double step = 0;
 
   std::size_t index(int column, int row) const {
@@ -34,6 +38,10 @@ struct StandingRoom {
            static_cast<std::size_t>(column);
   }
   glm::dvec2 place(std::size_t point) const;
+  float sight_at(std::size_t point) const { return sight[block_of(point)]; }
+  std::size_t block_of(std::size_t point) const;
+  int block_columns() const { return (columns + kSightBlock - 1) / kSightBlock; }
+  int block_rows() const { return (rows + kSightBlock - 1) / kSightBlock; }
   /// The points one step away: of eight neighbours those that are free, and no higher or lower than
   /// a step; a diagonal one only where both points beside it are, too.
   std::vector<std::size_t> neighbours(std::size_t point) const;

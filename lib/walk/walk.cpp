@@ -16,6 +16,8 @@ constexpr double kLookAhead_s = 1.5, kSample_s = 0.2;
 constexpr int kRounds = 40;  // of smoothing
 // A step beside what stands near costs more: walkers keep to the middle.
 constexpr double kCrowded = 2;
+// How much more a step costs where there is nothing to see.
+constexpr double kDull = 3;
 
 using Route = std::vector<std::size_t>;
 
@@ -32,12 +34,23 @@ std::string format_place(const glm::dvec2& p) {
 
 class RouteFinder {
  public:
-  explicit RouteFinder(const StandingRoom& room) : room_(room), part_(connect_parts(room)) {}
+  explicit RouteFinder(const StandingRoom& room) : room_(room), part_(connect_parts(room)) {
+    for (std::size_t p = 0; p < part_.size(); ++p)
+      if (part_[p] == 0) most_sight_ = std::max(most_sight_, room.sight_at(p));
+  }
 
   const std::vector<int>& parts() const { return part_; }
 
-  // From one point to all of its part: lengths, and where each is come from.
-  void spread(std::size_t from) {
+  // Of the largest part: the first point with the most to see.
+  std::size_t best_place() const {
+    std::size_t p = 0;
+    while (part_[p] != 0 || room_.sight_at(p) < most_sight_) ++p;
+    return p;
+  }
+
+  // From one point to all of its part: lengths, and where each is come from. strolls: by what there
+  // is to see.
+  void spread(std::size_t from, bool strolls) {
     length_.assign(part_.size(), kFar), from_.assign(part_.size(), from);
     using Entry = std::pair<double, std::size_t>;
     std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
@@ -48,18 +61,20 @@ class RouteFinder {
       queue.pop();
       if (length > length_[p]) continue;
       const std::vector<std::size_t> next = room_.neighbours(p);
-      const double crowd = next.size() < 8 ? kCrowded : 1;
+      const double crowd = (next.size() < 8 ? kCrowded : 1) * (strolls ? dullness(p) : 1);
       for (const std::size_t q : next) {
         const double to = length + crowd * glm::distance(room_.place(p), room_.place(q));
         if (to < length_[q]) length_[q] = to, from_[q] = p, queue.emplace(to, q);
       }
     }
   }
+  // Of the points with half the most to see.
   std::size_t farthest() const {
     std::size_t best = 0;
     double most = -1;
     for (std::size_t p = 0; p < length_.size(); ++p)
-      if (length_[p] < kFar && length_[p] > most) most = length_[p], best = p;
+      if (length_[p] < kFar && length_[p] > most && 2 * room_.sight_at(p) >= most_sight_)
+        most = length_[p], best = p;
     return best;
   }
   bool is_reached(std::size_t p) const { return length_[p] < kFar; }
@@ -71,8 +86,13 @@ class RouteFinder {
   }
 
  private:
+  double dullness(std::size_t p) const {
+    return most_sight_ > 0 ? 1 + kDull * (1 - double(room_.sight_at(p) / most_sight_)) : 1;
+  }
+
   const StandingRoom& room_;
   std::vector<int> part_;
+  float most_sight_ = 0;  // in the largest part
   std::vector<double> length_;
   std::vector<std::size_t> from_;
 };
@@ -133,14 +153,27 @@ double floor_at(const StandingRoom& room, const Route& route, const std::vector<
   return glm::mix(double(room.floor_z[route[i - 1]]), double(room.floor_z[route[i]]), t);
 }
 
+// Where along the route a stretch of that length begins that has the most to see.
+double best_start(const StandingRoom& room, const Route& route, const std::vector<double>& along,
+                  double length) {
+  std::vector<double> seen{0};  // up to each point: to see, times length
+  for (std::size_t i = 1; i < route.size(); ++i)
+    seen.push_back(seen.back() + (along[i] - along[i - 1]) * double(room.sight_at(route[i])));
+  double best = 0, most = -1;
+  std::size_t end = 0;
+  for (std::size_t i = 0; i < route.size() && along[i] + length <= along.back(); ++i) {
+    while (along[end] < along[i] + length) ++end;
+    if (seen[end] - seen[i] > most) most = seen[end] - seen[i], best = along[i];
+  }
+  return best;
+}
+
 FixedRoute choose_route(const StandingRoom& room, RouteFinder& finder, const WalkOptions& options,
                         const std::string& name) {
   if (options.through.empty()) {
-    std::size_t seed = 0;
-    while (finder.parts()[seed] != 0) ++seed;
-    finder.spread(seed);
+    finder.spread(finder.best_place(), true);
     const std::size_t end = finder.farthest();
-    finder.spread(end);
+    finder.spread(end, true);
     FixedRoute out{finder.route_to(finder.farthest()), {}};
     out.is_fixed.resize(out.points.size(), false);
     return out;
@@ -148,7 +181,7 @@ FixedRoute choose_route(const StandingRoom& room, RouteFinder& finder, const Wal
   FixedRoute out{{*room.nearest(options.through[0])}, {true}};
   for (std::size_t i = 1; i < options.through.size(); ++i) {
     const std::size_t to = *room.nearest(options.through[i]);
-    finder.spread(out.points.back());
+    finder.spread(out.points.back(), false);
     if (!finder.is_reached(to))
       throw InputError(name, "",
                        "no way leads from " + format_place(options.through[i - 1]) + " to " +
@@ -177,6 +210,7 @@ Walk make_walk(const StandingRoom& room, const WalkOptions& options, const std::
   Walk out;
   out.length = along.back();
   if (options.seconds > 0) out.length = std::min(out.length, options.seconds * options.speed);
+  const double start = options.through.empty() ? best_start(room, route, along, out.length) : 0.0;
   const int part = finder.parts()[route[0]];
   out.room_share = double(std::count(finder.parts().begin(), finder.parts().end(), part)) /
                    double(room.is_free.size());
@@ -184,7 +218,7 @@ Walk make_walk(const StandingRoom& room, const WalkOptions& options, const std::
   const int n = std::max(1, static_cast<int>(std::ceil(duration / kSample_s)));
   glm::dvec2 forward(1, 0);
   for (int i = 0; i <= n; ++i) {
-    const double time = duration * i / n, at = time * options.speed;
+    const double time = duration * i / n, at = start + time * options.speed;
     const glm::dvec2 here = line.at(at), ahead = line.at(at + kLookAhead_s * options.speed) - here;
     if (glm::length(ahead) > 1e-3 * options.speed) forward = glm::normalize(ahead);
     out.path.samples.push_back(

@@ -21,10 +21,11 @@ struct Walk {
   double room_share = 0;  ///< of the grid's points: free and connected to the walk
 };
 
-/// Along the shortest routes between the places (without any: between the two ends of the largest
-/// part of the room, the points farthest apart on foot), rounded where there is room, looking ahead
-/// along the route, level. Throws InputError (name) when nobody can stand anywhere, and for a place
-/// that no route leads to. The same every time.
+/// Along the shortest routes between the places, rounded where there is room, looking ahead along
+/// the route, level. Without places: in the largest part of the room, between the points farthest
+/// apart of those with half the most to see, by where there is much to see; and of a route longer
+/// than the walk, the stretch with the most. Throws InputError (name) when nobody can stand
+/// anywhere, and for a place that no route leads to. The same every time.
 Walk make_walk(const StandingRoom& room, const WalkOptions& options, const std::string& name);
 
 }  // namespace viewcell

@@ -10,6 +10,9 @@
 #include "common/temporary_folder.h"
 #include "formats/mesh_file.h"
 #include "image/fill.h"
+#include "image/io.h"
+#include "scene/material_scene.h"
+#include "scene/pictures.h"
 
 namespace viewcell {
 
@@ -45,14 +48,47 @@ inline Scene make_bake_scene() {
   return scene;
 }
 
-/// Writes scene.json and its meshes; what read_scene makes of them.
+/// A fence of leaves, 60 wide and 30 high, in the middle of the same area; a ball on either side.
+inline Scene make_fence_scene() {
+  Scene scene = make_scene_of(make_sphere(6, 40, 24));
+  scene.area = {{0, 0}, {120, 120}};
+  scene.meshes[0].name = "sphere", scene.meshes[0].file = "sphere.ply";
+  TriMesh wall;
+  wall.positions = {{-30, 0, -15}, {30, 0, -15}, {30, 0, 15}, {-30, 0, 15}};
+  wall.triangles = {{0, 1, 2}, {0, 2, 3}};
+  wall.texcoords = {{0, 0}, {2, 0}, {2, 1}, {0, 0}, {2, 1}, {0, 1}};
+  scene.meshes.push_back(make_dressed_mesh(wall, "fence"));
+  scene.materials = {{.base_color = {0.5f, 0.1f, 0.1f}},
+                     {.base_color = glm::vec3(1),
+                      .base_color_texture = "leaves.png",
+                      .double_sided = true,
+                      .alpha = AlphaMode::mask}};
+  scene.pictures.push_back({"leaves.png", "", 0.5f, {make_spots(64, 3)}});
+  scene.objects.clear();
+  for (const auto& [mesh, x, y] : {std::tuple(1, 60, 60), {0, 45, 80}, {0, 75, 40}}) {
+    SceneObject& object = scene.objects.emplace_back();
+    object.mesh = MeshId(mesh);
+    object.materials = {mesh};
+    object.translation = {x, y, 18};
+  }
+  return scene;
+}
+
+/// Writes scene.json, its meshes and its pictures' finest levels; what read_scene and load_pictures
+/// make of them.
 inline Scene write_scene(Scene scene, const std::filesystem::path& folder) {
+  for (ScenePicture& picture : scene.pictures) {
+    write_png(folder / picture.file, picture.mips.at(0));
+    picture.hash = hash_file(folder / picture.file);
+  }
   for (SceneMesh& mesh : scene.meshes) {
     write_ply(folder / mesh.file, mesh.mesh);
     mesh.hash = hash_file(folder / mesh.file);
   }
   write_file(folder / "scene.json", format_json(format_scene(scene, test_provenance())));
-  return read_scene(folder / "scene.json");
+  Scene read = read_scene(folder / "scene.json");
+  load_pictures(folder / "scene.json", read, {}, 2);
+  return read;
 }
 
 /// One object from one eye, filled and classified.
@@ -70,7 +106,7 @@ inline std::optional<ClassifiedView> classify_view(const Scene& scene, const Ray
 /// Captures and meshes of every cell; nothing is packed yet.
 struct SmallBake {
   TemporaryFolder folder;
-  Scene scene = write_scene(make_bake_scene(), folder.path());
+  Scene scene;
   CellSet cells = make_cells(scene, 40, {});
   BakeOptions options = make_options();
   PackInputs inputs{folder.path() / "scene.json", folder.path() / "cells.json",
@@ -87,7 +123,8 @@ struct SmallBake {
     return options;
   }
 
-  SmallBake() {
+  explicit SmallBake(Scene made = make_bake_scene())
+      : scene(write_scene(std::move(made), folder.path())) {
     for (int i = 0; i < cells.grid.n_cells(); ++i) list.push_back(CellId(i));
     write_file(inputs.cells_file, format_json(format_cells(cells, test_provenance())));
     cells = read_cells(inputs.cells_file);
@@ -129,9 +166,9 @@ struct SmallBake {
 
   PackCounts pack(const std::filesystem::path& bundle) const { return pack(bundle, inputs, list); }
   PackCounts pack(const std::filesystem::path& bundle, const PackInputs& from,
-                  const std::vector<CellId>& which) const {
-    return pack_bundle(scene, cells, from, which, TextureFormat::rgba8, test_provenance(), bundle,
-                       2, {});
+                  const std::vector<CellId>& which,
+                  TextureFormat format = TextureFormat::rgba8) const {
+    return pack_bundle(scene, cells, from, which, format, test_provenance(), bundle, 2, {});
   }
 };
 

@@ -315,7 +315,7 @@ TEST(Bundle, CodesDecodeToDepthWithinHalfACode) {
       c = {static_cast<float>(random.uniform()), static_cast<float>(random.uniform(0, 3)), 0, 1};
     CentreTextures textures;
     textures.texels.resize(5);
-    append_tile(tile, textures);
+    append_tile(tile, false, textures);
     const BundleTile& out = textures.tiles.at(0);
     EXPECT_EQ(out.object, k);
     EXPECT_EQ(out.first_texel, 5u);
@@ -343,9 +343,40 @@ TEST(Bundle, OneDepthAloneIsEncodedWithoutDividing) {
   tile.color = ImageRgbaFloat(2, 2, {0.5f, 0.5f, 0.5f, 1});
   tile.inverse_depth = Image<float>(2, 2, 0.25f);
   CentreTextures textures;
-  append_tile(tile, textures);
+  append_tile(tile, false, textures);
   EXPECT_TRUE(std::isfinite(textures.tiles[0].code_scale));
   EXPECT_TRUE(std::isfinite(textures.tiles[0].code_bias));
+}
+
+// What a masked object's crop does not show is code 0, and nothing else is: as bytes and as BC3.
+TEST(Bundle, HolesOfMasksHaveACodeOfTheirOwn) {
+  Random random(8);
+  CaptureTile tile;
+  tile.object = ObjectId(0);
+  tile.crop = {0, 0, 37, 22};
+  tile.view.focal_px = 100, tile.view.source_px = 256;
+  tile.color = ImageRgbaFloat(37, 22);
+  tile.inverse_depth = Image<float>(37, 22);
+  for (std::size_t i = 0; i < tile.color.pixels.size(); ++i) {
+    tile.inverse_depth.pixels[i] = static_cast<float>(random.uniform(0.01, 0.02));
+    tile.color.pixels[i] = {0.5f, 0.5f, 0.5f, random.below(3) == 0 ? 0.0f : 1.0f};
+  }
+  CentreTextures textures;
+  append_tile(tile, true, textures);
+  const BundleTile& out = textures.tiles.at(0);
+  ImageRgba8 image(37, 22);
+  image.pixels = textures.texels;
+  const ImageRgba8 unpacked =
+      decode_blocks(encode_blocks(image, BlockFormat::bc3, ZeroAlpha::exact));
+  for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+    const bool is_seen = tile.color.pixels[i][3] > 0;
+    ASSERT_EQ(image.pixels[i][3] > 0, is_seen) << i;
+    ASSERT_EQ(unpacked.pixels[i][3] > 0, is_seen) << i;
+    if (!is_seen) continue;
+    EXPECT_NEAR((image.pixels[i][3] - out.code_bias) / out.code_scale,
+                static_cast<double>(tile.inverse_depth.pixels[i]), 0.5001 / out.code_scale);
+    EXPECT_NEAR(unpacked.pixels[i][3], image.pixels[i][3], 26) << i;  // a tenth of the range
+  }
 }
 
 // As from behind a wall of one side: no code is near what any depth would have.
@@ -355,7 +386,7 @@ TEST(Bundle, ATileThatShowsNothingIsAtNoDepth) {
   tile.color = ImageRgbaFloat(2, 2);
   tile.inverse_depth = Image<float>(2, 2, 0.0f);
   CentreTextures textures;
-  append_tile(tile, textures);
+  append_tile(tile, false, textures);
   for (const double inverse_depth : {0.0, 1e-6, 0.1, 1e3}) {
     const BundleTile& out = textures.tiles[0];
     for (const Rgba8& texel : textures.texels)

@@ -72,6 +72,31 @@ TEST(BlockDecode, AlphaWithBlackAndWhiteByHand) {
   for (std::size_t i = 0; i < 16; ++i) EXPECT_EQ(out.pixels[i][3], levels[i % 8]) << i;
 }
 
+// Where 0 is exact, only 0 becomes 0, and what lies between has six levels of the rest's range.
+TEST(BlockEncode, ZeroAlphaIsExact) {
+  Random random(9);
+  for (int k = 0; k < 300; ++k) {
+    ImageRgba8 image = random_image(8, 4, random);
+    const int least = 1 + static_cast<int>(random.below(200));
+    const int most =
+        least + static_cast<int>(random.below(static_cast<std::uint32_t>(256 - least)));
+    for (Rgba8& p : image.pixels)
+      p[3] = static_cast<std::uint8_t>(
+          random.below(4) == 0
+              ? 0
+              : least +
+                    static_cast<int>(random.below(static_cast<std::uint32_t>(most - least + 1))));
+    const ImageRgba8 out = decode_blocks(encode_blocks(image, BlockFormat::bc3, ZeroAlpha::exact));
+    for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+      ASSERT_EQ(out.pixels[i][3] == 0, image.pixels[i][3] == 0) << k;
+      EXPECT_LE(std::abs(out.pixels[i][3] - image.pixels[i][3]), (most - least) / 10 + 1) << k;
+    }
+  }
+  const ImageRgba8 nothing(4, 4, {1, 2, 3, 0});
+  EXPECT_EQ(decode_blocks(encode_blocks(nothing, BlockFormat::bc3, ZeroAlpha::exact)).at(2, 2)[3],
+            0);
+}
+
 TEST(BlockEncode, OneColourIsKeptWithinTheStepOf565) {
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
     SCOPED_TRACE(seed);

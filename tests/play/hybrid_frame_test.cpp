@@ -1,12 +1,14 @@
 #include <gtest/gtest.h>
 
 #include "bake/bundle_copy.h"
+#include "common/expect_input_error.h"
 #include "image/metrics.h"
 #include "play/player.h"
 
 namespace viewcell {
 namespace {
 
+namespace fs = std::filesystem;
 constexpr int kSize = 256;
 
 struct Stage {
@@ -87,6 +89,47 @@ TEST(HybridFrame, LooksLikeTheOriginals) {
   EXPECT_GT(n_differ, 12);
   EXPECT_GT(mean_db / n_differ, 31);
   EXPECT_LT(n_lit, 0.02 * static_cast<double>(n_textured));
+}
+
+// Through a fence of leaves one sees what stands behind it, from both sides and from anywhere in
+// the cells; packed as bytes and as BC3.
+TEST(HybridFrame, MasksAreSeenThrough) {
+  const SmallBake fence(make_fence_scene());
+  for (const TextureFormat format : {TextureFormat::rgba8, TextureFormat::bc3}) {
+    const TemporaryFolder folder;
+    fence.pack(folder.path() / "bundle", fence.inputs, fence.list, format);
+    Stage stage(folder.path() / "bundle");
+    Random random(37);
+    double mean_db = 0;
+    std::size_t n_one = 0, n_both = 0, n_filled = 0;
+    constexpr int kFrames = 12;
+    for (int k = 0; k < kFrames; ++k) {
+      Camera camera;
+      camera.eye = {random.uniform(10, 110), 60 + (k % 2 ? 1 : -1) * random.uniform(42, 56), 18};
+      camera.forward = glm::normalize(glm::dvec3(60, 60, 18) - camera.eye);
+      const ImageRgba8 original = stage.draw(Mode::frustum, camera);
+      const ImageRgba8 hybrid = stage.draw(Mode::hybrid, camera);
+      mean_db += compare_images(original, hybrid, {false}).psnr_covered_db / kFrames;
+      for (std::size_t i = 0; i < hybrid.pixels.size(); ++i) {
+        const bool was = original.pixels[i][3] != 0, is = hybrid.pixels[i][3] != 0;
+        n_one += was != is, n_both += was && is, n_filled += is && !was;
+      }
+    }
+    EXPECT_GT(mean_db, 23) << int(format);
+    EXPECT_GT(n_both, 60000u);
+    EXPECT_LT(double(n_one), 0.09 * double(n_both));  // rims of leaves
+    EXPECT_LT(double(n_filled), 0.05 * double(n_both));
+  }
+  // One that was packed before tiles told of holes would have some where there are none.
+  const TemporaryFolder folder;
+  const fs::path old = folder.path() / "bundle";
+  fence.pack(old);
+  BundleManifest manifest = Bundle(old).manifest();
+  const fs::path bake = bake_folder(old, manifest);
+  manifest.has_masks = false;
+  fs::rename(bake, bake_folder(old, manifest));
+  write_file(old / kManifestName, format_json(format_manifest(manifest)));
+  EXPECT_INPUT_ERROR(Bundle{old}, "pack it again");
 }
 
 // Two points on a line of sight of the view, as far apart as the tolerance allows, are seen from

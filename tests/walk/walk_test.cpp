@@ -65,6 +65,7 @@ TEST(StandingRoom, IsWhereNothingIsNear) {
   const StandingRoom again = find_standing_room(rooms.scene, rooms.cells, walker_of(18), 3);
   EXPECT_EQ(again.is_free, rooms.room.is_free);
   EXPECT_EQ(again.floor_z, rooms.room.floor_z);
+  EXPECT_EQ(again.sight, rooms.room.sight);
 }
 
 // A step of 1 is taken, a table of 8 is not: the eye above it would leave the baked heights.
@@ -97,6 +98,25 @@ TEST(Walk, LeadsThroughTheDoor) {
     EXPECT_LT(glm::distance(samples[i - 1].eye, samples[i].eye), 0.2 * 14 + 1e-6);
     // Smooth: no more than 30 degrees in a fifth of a second.
     EXPECT_GT(glm::dot(samples[i - 1].forward, samples[i].forward), std::cos(0.53)) << i;
+  }
+}
+
+// A village in a corner of wide open ground: the walk is there, not along the ground's far rim.
+TEST(Walk, StaysWhereThereIsMuchToSee) {
+  Scene scene;
+  scene.area = {{0, 0}, {1600, 800}};
+  scene.materials.resize(1);
+  for (int x = 0; x < 4; ++x)
+    for (int y = 0; y < 3; ++y)
+      add(scene, {200 + 80 * x, 300 + 80 * y, 0}, {220 + 80 * x, 320 + 80 * y, 60});
+  const Rooms rooms(std::move(scene));
+  EXPECT_GT(rooms.room.sight_at(*rooms.room.nearest({270, 370})), 0.2f);
+  EXPECT_EQ(rooms.room.sight_at(*rooms.room.nearest({1500, 100})), 0.0f);
+  for (const double seconds : {0.0, 15.0}) {
+    const Walk walk = make_walk(rooms.room, {.seconds = seconds}, "scene.json");
+    EXPECT_GT(walk.length, 200);
+    for (const PathSample& sample : walk.path.samples)
+      EXPECT_LT(glm::distance(glm::dvec2(sample.eye), {330, 390}), 350) << seconds;
   }
 }
 

@@ -40,27 +40,11 @@ void with_engine(const DepthcapArguments& a, const Scene& scene, int n_threads,
   }
 }
 
-// Tiles do not say yet where a mask has its holes.
-void remark_masks(const Tool& tool, const std::string& scene_file, const Scene& scene) {
-  std::size_t n = 0;
-  for (const SceneObject& object : scene.objects)
-    n += std::any_of(object.materials.begin(), object.materials.end(), [&](int m) {
-      return scene.materials[static_cast<std::size_t>(m)].alpha == AlphaMode::mask;
-    });
-  Remarks remarks;
-  add_remark(&remarks,
-             "objects with masks, whose holes hybrid will show filled where they are outside "
-             "of the cell",
-             n);
-  tool.remark(scene_file, remarks);
-}
-
 int run(Tool& tool, const DepthcapArguments& a) {
   const int n_threads = tool.common().n_threads;
   Scene scene = read_scene(a.scene_file, {.n_threads = n_threads, .limits = mesh_limits(tool)});
   load_pictures(a.scene_file, scene, {a.max_pixels}, n_threads);
   register_scene_files(tool, scene, a.scene_file);
-  remark_masks(tool, a.scene_file, scene);
   const CellSet cells = read_cells(a.cells_file);
   check_cells_of_scene(cells, scene, a.cells_file);
   const auto centres = centres_of(cells, select_cells(cells, a.cell_list, a.slice));

@@ -34,7 +34,7 @@ void declare(Tool& tool, Options& o) {
       .reads("the file of cells that is read");
   tool.add_option("--through", &o.through,
                   "X,Y: a place to pass, in the scene's units; several times, in that order "
-                  "(default: from one end of the largest free space to the other)");
+                  "(default: through the largest free space, by where there is much to see)");
   tool.add_option("--seconds", &o.seconds, "how long the walk is at most; 0: to its end")
       .show_default()
       .check(within(0, 1e5));
