@@ -54,7 +54,8 @@ void check_crop(const BundleTile& tile, const SectionReader& reader) {
     reader.fail("TILES", "has a picture of an absurd size");
 }
 
-void check_view(const BundleTile& tile, const glm::dvec3& eye, const SectionReader& reader) {
+void check_view(const BundleTile& tile, const glm::dvec3& eye, bool is_masked,
+                const SectionReader& reader) {
   if (!(glm::distance(vector_of(tile.eye), eye) <= kEyeTolerance * (1 + glm::length(eye))))
     reader.fail("TILES", "has a view that is not seen from the centre");
   if (!is_view_frame(vector_of(tile.right), vector_of(tile.up), vector_of(tile.forward)))
@@ -62,7 +63,7 @@ void check_view(const BundleTile& tile, const glm::dvec3& eye, const SectionRead
   if (!(tile.focal_px >= 1e-3 && tile.focal_px <= 1e9))
     reader.fail("TILES", "has a focal length that is not within 0.001 to 1e9 px");
   if (!(std::isfinite(tile.code_scale) && tile.code_scale >= 0) ||
-      !(std::isfinite(tile.code_bias) && tile.code_bias <= 1))
+      !(std::isfinite(tile.code_bias) && tile.code_bias <= (is_masked ? 1 : 0)))
     reader.fail("TILES", "has a depth code that is not finite or does not fall with the depth");
 }
 
@@ -112,7 +113,8 @@ void check_tiles(const std::vector<BundleTile>& tiles, std::uint64_t n_texels, c
     last = tile.object;
     if (tile.first_texel != next) reader.fail("TILES", "its crops do not follow one another");
     next += static_cast<std::uint64_t>(tile.width_px) * static_cast<std::uint64_t>(tile.height_px);
-    check_view(tile, eye, reader);
+    const SceneObject& object = scene.objects[static_cast<std::size_t>(tile.object)];
+    check_view(tile, eye, scene.is_masked(object), reader);
   }
 }
 

@@ -438,7 +438,7 @@ TEST(Bundle, EveryLineOfTheManifestIsHeld) {
   };
   const std::string other = "0123456789abcdef";
   refused("version", 1,
-          "version 1, this tool reads version 2: pack the bundle again with cellpack");
+          "version 1, this tool reads version 2 to 3: pack the bundle again with cellpack");
   for (const char* key : {"scene_hash", "cells_hash", "captures", "meshes", "key", "hash"}) {
     refused(key, other,
             std::string(key) == "hash" ? "hash: is not that of" : "key: is not that of");

@@ -50,7 +50,7 @@ bundle_fault "b/bundle.json: key"
 sed -i 's/"cells": \[0,/"cells": [1,/' b/bundle.json
 bundle_fault "b/bundle.json: cells[1]"
 sed -i 's/"version": 2/"version": 1/' b/bundle.json
-bundle_fault "b/bundle.json: version: version 1, this tool reads version 2: pack the bundle again"
+bundle_fault "b/bundle.json: version: version 1, this tool reads version 2 to 3: pack the bundle again"
 
 # --- its binary files: play goes on without the one that is damaged, says so once, also with -q, and
 # counts it ---
