@@ -16,7 +16,7 @@ set(VIEWCELL_ROOMS
   "cells: base mesh report scene"
   "walk: base rays scene cells"
   "park: base mesh formats pm scene cells"
-  "visibility: mesh"
+  "visibility: base rays mesh scene cells"
   "capture: base rays image gl scene cells"
   "bundle: base image scene cells"
   "bake: base image mesh formats pm scene cells visibility capture bundle"

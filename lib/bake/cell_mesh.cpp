@@ -28,10 +28,9 @@ double distance_to(const Box& box, const glm::dvec3& p) {
   return glm::length(glm::max(glm::max(box.lo - p, p - box.hi), glm::dvec3(0)));
 }
 
-// The coarsest level whose error, seen from the nearest point of the cell, stays below
-// start_error_px.
+// The coarsest level whose error, seen from the nearest point of the cell, stays below that.
 const StartLevel& choose_start(const BakeScene& bake, CellId cell, ObjectId id,
-                               const BakeOptions& options) {
+                               const BakeOptions& options, double most_error_px) {
   const SceneObject& object = bake.scene.objects[index(id)];
   const Ball ball = ball_of(bake.cells, cell);
   const double distance =
@@ -40,7 +39,7 @@ const StartLevel& choose_start(const BakeScene& bake, CellId cell, ObjectId id,
   const auto& levels = bake.meshes[index(object.mesh)].levels;
   std::size_t best = 0;
   for (std::size_t i = 1; i < levels.size(); ++i)
-    if (levels[i].error * px_per_unit < options.start_error_px && levels[i].lost_share <= kMostLost)
+    if (levels[i].error * px_per_unit < most_error_px && levels[i].lost_share <= kMostLost)
       best = i;
   return levels[best];
 }
@@ -212,9 +211,15 @@ CellObject choose_representation(const BakeScene& bake, CellId cell, ObjectId id
   out.object = id;
   if (is_inside(bake.cells, cell, id)) return out;
   const SceneObject& object = bake.scene.objects[index(id)];
-  out.level = &choose_start(bake, cell, id, options);
+  const bool unseen = is_unseen(bake.cells, cell, id);
+  out.level = &choose_start(bake, cell, id, options,
+                            unseen ? options.unseen_error_px : options.start_error_px);
   out.vertices = place_vertices(out.level->mesh, object);
   out.sides = find_sides(bake, cell, object, *out.level, out.vertices.positions);
+  if (unseen) {
+    out.kind = Representation::unseen;
+    return out;
+  }
   out.kind = needs_one_view(bake, cell, out, options) ? Representation::single_view
                                                       : Representation::multi_view;
   return out;
@@ -239,7 +244,8 @@ CellMesh derive_mesh(const BakeScene& bake, CellId cell, CellObject object,
   CollapseMesh work(vertices.positions, start);
   ViewMetric metric(vertices, start, metric_options);
   CollapseLoop loop(work, metric);
-  counts.collapses = loop.run({.max_cost = static_cast<float>(options.tl_px)});
+  if (object.kind != Representation::unseen)
+    counts.collapses = loop.run({.max_cost = static_cast<float>(options.tl_px)});
 
   const std::vector<Triangle> left = part_twins(work, level.is_twin);
   for (std::uint32_t v = 0; v < vertices.positions.size(); ++v)

@@ -20,6 +20,7 @@ struct BakeOptions {
   double max_drift_px = 0.5;  ///< see ViewMetricOptions
   /// Start from a level whose error projects to less; 0: from the original.
   double start_error_px = 0.125;
+  double unseen_error_px = 1;  ///< likewise, of the level that an unseen object is
   CategoryOptions categories;
   WeightOptions weights;
 };
@@ -45,8 +46,8 @@ struct CellObject {
   FaceSides sides;                    ///< of the level's triangles
 };
 
-/// Inside the cell, or one view where the self-occluding error is below T_s, else several. Every
-/// object of a cell is exactly one of them, in every tool.
+/// Inside the cell, unseen from it (the cells say so), or one view where the self-occluding error
+/// is below T_s, else several. Every object of a cell is exactly one of them, in every tool.
 CellObject choose_representation(const BakeScene& bake, CellId cell, ObjectId object,
                                  const BakeOptions& options);
 
@@ -68,7 +69,8 @@ struct CellMeshCounts {
   CollapseCounts collapses;
 };
 
-/// object: of choose_representation, outside. Follows: [Chen06 5.2.1], SVMesh with the views' first
+/// object: of choose_representation, outside; of an unseen one, without views, the level as it is.
+/// Follows: [Chen06 5.2.1], SVMesh with the views' first
 /// alone, MVMesh with all that see the object. Differs: triangles that are back-facing to the whole
 /// cell are culled after collapsing, not before, so that the rim of what is left is an edge loop of
 /// a closed surface and not the ragged border of the facing triangles; and an SVMesh keeps what

@@ -32,6 +32,7 @@ void add_counts(const CellMeshCounts& from, CellMeshCounts& to) {
 void DeriveCounts::add(const DeriveCounts& other) {
   n_meshes += other.n_meshes;
   n_unseen += other.n_unseen;
+  n_uncaptured += other.n_uncaptured;
   add_counts(other.triangles, triangles);
 }
 
@@ -45,12 +46,15 @@ WeightedMeshes derive_cell(const BakeScene& bake, const std::filesystem::path& c
   WeightedMeshes out{kind, cell, settings.key(), "", {}};
   for (std::size_t o = 0; o < bake.scene.objects.size(); ++o) {
     CellObject object = choose_representation(bake, cell, ObjectId(o), options);
-    if (object.kind != kind) continue;
-    const auto views = read_views(centres, ObjectId(o), options.categories);
+    const bool is_unseen = object.kind == Representation::unseen;
+    if (object.kind != kind && !(is_unseen && kind == Representation::single_view)) continue;
+    std::vector<ClassifiedView> views;
+    if (!is_unseen) views = read_views(centres, ObjectId(o), options.categories);
     CellMeshCounts mesh_counts;
     out.meshes.push_back(derive_mesh(bake, cell, std::move(object), views, options, mesh_counts));
     ++counts.n_meshes;
-    counts.n_unseen += views.empty();
+    counts.n_unseen += is_unseen;
+    counts.n_uncaptured += views.empty() && !is_unseen;
     add_counts(mesh_counts, counts.triangles);
   }
   return out;

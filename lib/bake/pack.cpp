@@ -108,7 +108,16 @@ void add_cell(const Scene& scene, const CellSet& cells, CellId cell, const CellM
   counts.n_triangles_inside += count_inside(scene, cells, cell);
   for (std::size_t m = 0; m < meshes.meshes.size(); ++m) {
     counts.n_triangles_outside += meshes.meshes[m].triangles.size();
-    ++(meshes.kinds[m] == Representation::single_view ? counts.n_single_view : counts.n_multi_view);
+    switch (meshes.kinds[m]) {
+      case Representation::unseen:
+        ++counts.n_unseen;
+        break;
+      case Representation::single_view:
+        ++counts.n_single_view;
+        break;
+      default:
+        ++counts.n_multi_view;
+    }
   }
 }
 

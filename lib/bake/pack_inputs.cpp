@@ -39,7 +39,7 @@ void check_all_there(const CellSet& cells, const PackInputs& inputs, CellId cell
 void add_needed(const CellSet& cells, CellId cell, const CellMeshes& meshes, TilesNeeded& needed) {
   const auto views = views_of(cells.grid, cell);
   for (std::size_t m = 0; m < meshes.meshes.size(); ++m)
-    for (std::size_t k = 0; k < views.size(); ++k)
+    for (std::size_t k = 0; k < views.size() && meshes.kinds[m] != Representation::unseen; ++k)
       if (k == 0 || meshes.kinds[m] == Representation::multi_view)
         needed[views[k]].insert(meshes.meshes[m].object);
 }
@@ -66,8 +66,8 @@ CellMeshes read_cell_meshes(const Scene& scene, const CellSet& cells, const Pack
     out.hash += read.file_hash;
     for (CellMesh& mesh : read.meshes) {
       ++n_times[index(mesh.object)];
+      out.kinds.push_back(is_unseen(cells, cell, mesh.object) ? Representation::unseen : kind);
       out.meshes.push_back(std::move(mesh));
-      out.kinds.push_back(kind);
     }
   }
   check_all_there(cells, inputs, cell, n_times);
@@ -78,6 +78,7 @@ CheckedInputs check_pack_inputs(const Scene& scene, const CellSet& cells, const 
                                 const std::vector<CellId>& list, int n_threads) {
   check_has_objects(scene, inputs.scene_file);
   check_self_contained(scene, inputs.scene_file);
+  check_tested(cells, list, inputs.cells_file);
   CheckedInputs out;
   out.settings = read_settings(inputs.captures, scene, cells.file_hash);
   out.mesh_hashes.resize(list.size());

@@ -17,12 +17,15 @@ void check_object(const BundleObject& o, const Scene& scene, const CellSet& cell
   const std::string name = "object " + std::to_string(o.object);
   if (o.object < 0 || static_cast<std::size_t>(o.object) >= scene.objects.size())
     reader.fail("OBJECTS", "names " + name);
-  if (o.kind != 1 && o.kind != 2) reader.fail("OBJECTS", "has an unknown kind of mesh");
+  if (o.kind < 1 || o.kind > 3) reader.fail("OBJECTS", "has an unknown kind of mesh");
   const auto at = static_cast<std::size_t>(o.object);
   if (seen[at]) reader.fail("OBJECTS", "has " + name + " twice");
   seen[at] = true;
   if (is_inside(cells, cell, ObjectId(o.object)))
     reader.fail("OBJECTS", "has " + name + ", which is inside the cell");
+  if ((Representation(o.kind) == Representation::unseen) !=
+      is_unseen(cells, cell, ObjectId(o.object)))
+    reader.fail("OBJECTS", "has " + name + " seen or unseen, and cells.json the other");
   for (int k = 0; k < 3; ++k)
     if (!std::isfinite(o.lo[k]) || !std::isfinite(o.hi[k]) || !(o.lo[k] <= o.hi[k]))
       reader.fail("OBJECTS", "the box of " + name + " is none");

@@ -146,9 +146,10 @@ std::vector<ObjectId> objects_seen_from(const CellSet& cells, CentreId centre) {
   std::set<ObjectId> seen;
   const auto add_outside_of = [&](HexCoord where) {
     const auto cell = cell_at(cells.grid, where);
-    if (!cell) return;
+    if (!cell || (!cells.is_tested.empty() && !cells.is_tested[index(*cell)])) return;
     for (std::size_t o = 0; o < cells.n_objects; ++o)
-      if (!is_inside(cells, *cell, ObjectId(o))) seen.insert(ObjectId(o));
+      if (!is_inside(cells, *cell, ObjectId(o)) && !is_unseen(cells, *cell, ObjectId(o)))
+        seen.insert(ObjectId(o));
   };
   add_outside_of(hex);
   for (int face = 0; face < 6; ++face) add_outside_of(neighbour(hex, face));

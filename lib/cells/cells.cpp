@@ -23,30 +23,51 @@ ConvexPolygon make_footprint(const Scene& scene, const SceneObject& object) {
   return convex_hull(std::move(points));
 }
 
-std::vector<ObjectId> read_inside(const JsonCursor& cursor, std::size_t n_objects) {
-  std::vector<ObjectId> inside;
+// The second adds what the cells see; without it the first is written.
+constexpr JsonVersions kVersions{1, 2};
+
+std::vector<ObjectId> read_objects(const JsonCursor& cursor, std::size_t n_objects) {
+  std::vector<ObjectId> ids;
   const std::size_t n = cursor.size(n_objects);
   for (std::size_t i = 0; i < n; ++i) {
     const auto id = cursor.at(i).integer(0, static_cast<std::int64_t>(n_objects) - 1);
-    inside.push_back(ObjectId(id));
-    if (i > 0 && inside[i] <= inside[i - 1]) cursor.at(i).fail("is not in ascending order");
+    ids.push_back(ObjectId(id));
+    if (i > 0 && ids[i] <= ids[i - 1]) cursor.at(i).fail("is not in ascending order");
   }
-  return inside;
+  return ids;
+}
+
+void read_unseen(const JsonCursor& cell, CellSet& cells) {
+  cells.is_tested.push_back(cell.has("unseen"));
+  std::vector<ObjectId>& unseen = cells.unseen.emplace_back();
+  if (!cells.is_tested.back()) return;
+  unseen = read_objects(cell.at("unseen"), cells.n_objects);
+  for (std::size_t i = 0; i < unseen.size(); ++i)
+    if (is_inside(cells, CellId(cells.inside.size() - 1), unseen[i]))
+      cell.at("unseen").at(i).fail("is inside the cell");
+}
+
+Json format_objects(const std::vector<ObjectId>& ids) {
+  Json out = Json::array();
+  for (const ObjectId id : ids) out.push_back(static_cast<int>(id));
+  return out;
 }
 
 Json format_cell(const CellSet& cells, CellId cell) {
   const HexCoord hex = coord_of(cells.grid, cell);
   const glm::dvec2 centre = centre_of(cells.grid, hex);
-  Json neighbours = Json::array(), inside = Json::array();
+  Json neighbours = Json::array();
   for (int face = 0; face < 6; ++face) {
     const auto next = cell_at(cells.grid, neighbour(hex, face));
     neighbours.push_back(next ? static_cast<int>(*next) : -1);
   }
-  for (const ObjectId id : cells.inside[index(cell)]) inside.push_back(static_cast<int>(id));
-  return {{"id", static_cast<int>(cell)},
-          {"centre", {centre.x, centre.y}},
-          {"neighbours", neighbours},
-          {"inside", inside}};
+  Json out = {{"id", static_cast<int>(cell)},
+              {"centre", {centre.x, centre.y}},
+              {"neighbours", neighbours},
+              {"inside", format_objects(cells.inside[index(cell)])}};
+  if (!cells.is_tested.empty() && cells.is_tested[index(cell)])
+    out["unseen"] = format_objects(cells.unseen[index(cell)]);
+  return out;
 }
 
 }  // namespace
@@ -81,6 +102,22 @@ bool is_inside(const CellSet& cells, CellId cell, ObjectId object) {
   return std::binary_search(inside.begin(), inside.end(), object);
 }
 
+bool is_unseen(const CellSet& cells, CellId cell, ObjectId object) {
+  if (cells.unseen.empty()) return false;
+  const auto& unseen = cells.unseen[index(cell)];
+  return std::binary_search(unseen.begin(), unseen.end(), object);
+}
+
+void check_tested(const CellSet& cells, const std::vector<CellId>& list,
+                  const std::filesystem::path& file) {
+  if (cells.is_tested.empty()) return;
+  for (const CellId cell : list)
+    if (!cells.is_tested[index(cell)])
+      throw InputError(file.string(), "cells[" + std::to_string(static_cast<int>(cell)) + "]",
+                       "was not tested for what it sees, as others were; run pvs with the same "
+                       "--cells");
+}
+
 std::vector<glm::dvec3> prism_of(const CellSet& cells, CellId cell) {
   std::vector<glm::dvec3> corners;
   for (const double z : {cells.eye_height.lo, cells.eye_height.hi})
@@ -99,7 +136,7 @@ glm::dvec3 eye_of(const CellSet& cells, CellId cell) {
 
 CellSet read_cells(const std::filesystem::path& file) {
   CellSet cells;
-  const Json json = read_json(file, kFormat, 1, "", &cells.file_hash);
+  const Json json = read_json(file, kFormat, kVersions, "", &cells.file_hash);
   const JsonCursor root(json, file);
   cells.scene_hash = root.at("scene_hash").string();
   cells.n_objects = static_cast<std::size_t>(root.at("objects").integer(0, 1 << 24));
@@ -112,13 +149,16 @@ CellSet read_cells(const std::filesystem::path& file) {
   cells.eye_height = {height[0], height[1]};
   if (height[0] > height[1]) root.at("eye_height").fail("is not LO, HI with LO <= HI");
   cells.near = root.at("near").number(1e-9, 1e6);
+  const bool has_tests = root.at("version").integer(kVersions.first, kVersions.last) == 2;
+  if (has_tests) cells.seen_by = root.at("seen_by").value();
   const JsonCursor list = root.at("cells");
   if (list.size() != static_cast<std::size_t>(cells.grid.n_cells()))
     list.fail("has " + std::to_string(list.size()) + " cells, not columns x rows");
   for (std::size_t i = 0; i < list.size(); ++i) {
     const JsonCursor cell = list.at(i);
     cell.at("id").integer(static_cast<std::int64_t>(i), static_cast<std::int64_t>(i));
-    cells.inside.push_back(read_inside(cell.at("inside"), cells.n_objects));
+    cells.inside.push_back(read_objects(cell.at("inside"), cells.n_objects));
+    if (has_tests) read_unseen(cell, cells);
   }
   return cells;
 }
@@ -126,18 +166,21 @@ CellSet read_cells(const std::filesystem::path& file) {
 Json format_cells(const CellSet& cells, const Json& provenance) {
   Json list = Json::array();
   for (int i = 0; i < cells.grid.n_cells(); ++i) list.push_back(format_cell(cells, CellId(i)));
-  return {{"format", kFormat},
-          {"version", 1},
-          {"made_by", provenance},
-          {"scene_hash", cells.scene_hash},
-          {"objects", cells.n_objects},
-          {"size", cells.grid.size},
-          {"origin", {cells.grid.origin.x, cells.grid.origin.y}},
-          {"columns", cells.grid.columns},
-          {"rows", cells.grid.rows},
-          {"eye_height", {cells.eye_height.lo, cells.eye_height.hi}},
-          {"near", cells.near},
-          {"cells", list}};
+  const bool has_tests = !cells.is_tested.empty();
+  Json out = {{"format", kFormat},
+              {"version", has_tests ? kVersions.last : kVersions.first},
+              {"made_by", provenance},
+              {"scene_hash", cells.scene_hash},
+              {"objects", cells.n_objects},
+              {"size", cells.grid.size},
+              {"origin", {cells.grid.origin.x, cells.grid.origin.y}},
+              {"columns", cells.grid.columns},
+              {"rows", cells.grid.rows},
+              {"eye_height", {cells.eye_height.lo, cells.eye_height.hi}},
+              {"near", cells.near}};
+  if (has_tests) out["seen_by"] = cells.seen_by;
+  out["cells"] = list;
+  return out;
 }
 
 void check_cells_of_scene(const CellSet& cells, const Scene& scene,

@@ -24,6 +24,11 @@ struct CellSet {
   std::string file_hash;   ///< hash_hex() of the bytes of cells.json; empty: not read from a file
   std::size_t n_objects = 0;
   std::vector<std::vector<ObjectId>> inside;  ///< per cell, ascending
+  /// Which cells were tested for what they see (visibility/seen_objects.h), and the objects outside
+  /// that each of these never sees, ascending. Both empty: no cell was, and each sees all.
+  std::vector<bool> is_tested;
+  std::vector<std::vector<ObjectId>> unseen;
+  Json seen_by;  ///< how they were tested
 };
 
 /// The convex hulls of the objects' footprints in the x-y plane, one an object.
@@ -34,6 +39,11 @@ std::vector<ConvexPolygon> make_footprints(const Scene& scene);
 CellSet make_cells(const Scene& scene, double size, const EyeHeight& eye_height);
 
 bool is_inside(const CellSet& cells, CellId cell, ObjectId object);
+bool is_unseen(const CellSet& cells, CellId cell, ObjectId object);
+/// Throws InputError when some of the cells were tested for what they see, but not all of the list:
+/// their captures would lack what the others see.
+void check_tested(const CellSet& cells, const std::vector<CellId>& list,
+                  const std::filesystem::path& file);
 
 /// The corner points of the prism in which the eye moves: six at the low eye height, six at the
 /// high.

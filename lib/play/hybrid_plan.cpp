@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/gtx/exterior_product.hpp>
+#include <optional>
 
 namespace viewcell {
 namespace {
@@ -33,17 +34,39 @@ double half_azimuth_rad(const Camera& camera) {
   return widest;
 }
 
-struct Ordered {
-  double distance;
-  HybridDraw draw;
-};
-
-void sort_front_to_back(std::vector<Ordered>& draws, std::vector<HybridDraw>& out) {
-  std::sort(draws.begin(), draws.end(), [](const Ordered& a, const Ordered& b) {
-    return a.distance != b.distance ? a.distance < b.distance : a.draw.slot < b.draw.slot;
-  });
-  for (const Ordered& o : draws) out.push_back(o.draw);
+// slots ascending when they come: ties stay in that order.
+template <typename Draw>
+std::vector<Draw> front_to_back(std::vector<std::pair<double, Draw>> draws) {
+  std::stable_sort(draws.begin(), draws.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<Draw> out;
+  for (const auto& [distance, draw] : draws) out.push_back(draw);
+  return out;
 }
+
+// By windows first, then by the frustum.
+class Culling {
+ public:
+  Culling(const CellSet& cells, CellId cell, const Camera& camera)
+      : frustum_(make_frustum(camera)),
+        windows_(find_visible_windows(cells.grid, cell, camera)),
+        eye_(camera.eye) {}
+
+  const Frustum& frustum() const { return frustum_; }
+  // The distance of the box' middle; nothing where the frame shows none of it.
+  template <typename Object>
+  std::optional<double> find(const Object& o) const {
+    if (o.n_indices == 0 || (o.windows & windows_) == 0) return {};
+    const Box box{glm::dvec3(o.lo), glm::dvec3(o.hi)};
+    if (!may_meet(frustum_, make_corners(box))) return {};
+    return glm::distance(eye_, box.centre());
+  }
+
+ private:
+  Frustum frustum_;
+  std::uint8_t windows_;
+  glm::dvec3 eye_;
+};
 
 }  // namespace
 
@@ -96,28 +119,34 @@ std::uint8_t find_visible_windows(const HexGrid& grid, CellId cell, const Camera
 HybridPlan plan_hybrid(const PlanScene& scene, const CellSet& cells, const ReadyCell& cell,
                        const ViewsAvailable& views, const Camera& camera) {
   HybridPlan plan;
-  const Frustum frustum = make_frustum(camera);
-  const std::uint8_t windows = find_visible_windows(cells.grid, cell.cell, camera);
+  const Culling culling(cells, cell.cell, camera);
   std::array<glm::dvec3, kViews> centres;
   const auto ids = views_of(cells.grid, cell.cell);
   for (std::size_t k = 0; k < ids.size(); ++k) centres[k] = eye_of(cells, ids[k]);
 
-  std::vector<Ordered> draws;
+  std::vector<std::pair<double, HybridDraw>> draws;
   for (std::size_t slot = 0; slot < cell.objects.size(); ++slot) {
     const ReadyObject& o = cell.objects[slot];
-    if (o.n_indices == 0 || (o.windows & windows) == 0) continue;
-    const Box box{glm::dvec3(o.lo), glm::dvec3(o.hi)};
-    if (!may_meet(frustum, make_corners(box))) continue;
-    const glm::dvec3 middle = box.centre();
+    const std::optional<double> distance = culling.find(o);
+    if (!distance) continue;
+    const glm::dvec3 middle = Box{glm::dvec3(o.lo), glm::dvec3(o.hi)}.centre();
     const bool is_single = o.kind == Representation::single_view;
     const unsigned available = views[slot] & (is_single ? 1u : 0x7fu);
     const HybridDraw draw{static_cast<std::uint16_t>(slot),
                           choose_views(camera.eye, middle, centres, available)};
-    draws.push_back({glm::distance(camera.eye, middle), draw});
+    draws.emplace_back(*distance, draw);
     plan.n_triangles += o.n_indices / 3;
   }
-  sort_front_to_back(draws, plan.outside);
-  plan.inside = select_visible(scene, frustum, camera, cells.inside[index(cell.cell)]);
+  plan.outside = front_to_back(std::move(draws));
+  std::vector<std::pair<double, std::uint16_t>> unseen;
+  for (std::size_t slot = 0; slot < cell.unseen.size(); ++slot) {
+    const std::optional<double> distance = culling.find(cell.unseen[slot]);
+    if (!distance) continue;
+    unseen.emplace_back(*distance, static_cast<std::uint16_t>(slot));
+    plan.n_triangles += cell.unseen[slot].n_indices / 3;
+  }
+  plan.unseen = front_to_back(std::move(unseen));
+  plan.inside = select_visible(scene, culling.frustum(), camera, cells.inside[index(cell.cell)]);
   return plan;
 }
 

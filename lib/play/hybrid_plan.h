@@ -33,7 +33,9 @@ struct HybridDraw {
 struct HybridPlan {
   std::vector<ObjectId> inside;     ///< drawn as they are, front to back
   std::vector<HybridDraw> outside;  ///< front to back
-  std::size_t n_triangles = 0;      ///< of the outside objects
+  /// Places in ReadyCell::unseen, front to back; drawn behind all, by one draw.
+  std::vector<std::uint16_t> unseen;
+  std::size_t n_triangles = 0;  ///< of the outside objects and the unseen ones
 };
 
 /// The side faces that a camera inside the cell may look through: bit k (window culling [Chen06

@@ -55,6 +55,8 @@ glm::vec3 kind_color(Representation kind) {
       return {0.35f, 0.08f, 0.45f};
     case Representation::multi_view:
       return {0.05f, 0.18f, 0.60f};
+    case Representation::unseen:
+      return {0.60f, 0.05f, 0.04f};
   }
   throw_bug(__FILE__, __LINE__, "a Representation", static_cast<int>(kind));
 }

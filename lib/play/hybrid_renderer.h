@@ -11,7 +11,7 @@ namespace viewcell {
 
 enum class HybridStyle {
   textured,
-  kinds,      ///< SVMesh violet, MVMesh blue, lit (Figures 5.15 to 5.18)
+  kinds,      ///< SVMesh violet, MVMesh blue, lit (Figures 5.15 to 5.18); unseen red
   wireframe,  ///< kinds, with edges
 };
 

@@ -16,6 +16,7 @@ Player::Player(const Bundle& bundle, const PlayerOptions& options)
       scene_renderer_(context_.gl(), bundle.scene(), levels_),
       residency_(context_.gl(), bundle, options.residency),
       hybrid_renderer_(context_.gl(), bundle.scene(), options.hybrid),
+      unseen_renderer_(context_.gl()),
       floor_(context_.gl(), options.width_px, options.height_px),
       ray_image_(options.width_px, options.height_px) {
   if (options.with_raycast)
@@ -38,8 +39,10 @@ DrawnFrame Player::draw_resident(const Camera& camera, const ResidentCell& cell,
   if (style != HybridStyle::textured) inside_style.base_color = kind_color(Representation::inside);
   const std::size_t n_inside = scene_renderer_.draw_clusters(camera, plan.inside, inside_style);
   hybrid_renderer_.draw(camera, cell, residency_.texel_texture(), plan, style);
-  return {0, n_inside + plan.n_triangles, plan.inside.size() + plan.outside.size(),
-          residency_.texture_bytes(), cell.stand_in};
+  unseen_renderer_.draw(camera, cell, plan, style);
+  const std::size_t n_draws =
+      plan.inside.size() + plan.outside.size() + (plan.unseen.empty() ? 0 : 1);
+  return {0, n_inside + plan.n_triangles, n_draws, residency_.texture_bytes(), cell.stand_in};
 }
 
 DrawnFrame Player::draw_stand_in(const Camera& camera, StandIn why, HybridStyle style) {

@@ -10,6 +10,7 @@
 #include "play/floor_quad.h"
 #include "play/hybrid_renderer.h"
 #include "play/modes.h"
+#include "play/unseen_renderer.h"
 
 namespace viewcell {
 
@@ -69,6 +70,7 @@ class Player {
   SceneRenderer scene_renderer_;
   Residency residency_;
   HybridRenderer hybrid_renderer_;
+  UnseenRenderer unseen_renderer_;
   FloorQuad floor_;
   std::unique_ptr<RayCaster> ray_caster_;
   Camera hybrid_camera_;  // of the last hybrid frame

@@ -14,6 +14,17 @@ namespace {
 constexpr double kMoved = 0.1;
 const double kTurnedCosine = std::cos(glm::radians(10.0));
 
+void upload_unseen(const Gl& gl, const ReadyCell& ready, ResidentCell& cell) {
+  cell.unseen_vertices = make_buffer(gl, ready.unseen_vertices);
+  cell.unseen_indices = make_buffer(gl, ready.unseen_indices);
+  cell.unseen_array = GlVertexArray(gl);
+  gl.VertexArrayVertexBuffer(cell.unseen_array.id(), 0, cell.unseen_vertices.id(), 0,
+                             sizeof(UnseenVertex));
+  gl.VertexArrayElementBuffer(cell.unseen_array.id(), cell.unseen_indices.id());
+  cell.unseen_array.set_attribute(0, 3, GL_FLOAT, GL_FALSE, offsetof(UnseenVertex, position));
+  cell.unseen_array.set_attribute(1, 4, GL_UNSIGNED_BYTE, GL_TRUE, offsetof(UnseenVertex, color));
+}
+
 ResidentCell upload_cell(const Gl& gl, std::shared_ptr<const ReadyCell> ready) {
   ResidentCell cell;
   cell.vertices = make_buffer(gl, ready->vertices);
@@ -23,6 +34,7 @@ ResidentCell upload_cell(const Gl& gl, std::shared_ptr<const ReadyCell> ready) {
   gl.VertexArrayElementBuffer(cell.array.id(), cell.indices.id());
   cell.array.set_attribute(0, 3, GL_FLOAT, GL_FALSE, offsetof(LitVertex, position));
   cell.array.set_attribute(1, 3, GL_SHORT, GL_TRUE, offsetof(LitVertex, normal));
+  if (!ready->unseen.empty()) upload_unseen(gl, *ready, cell);
   cell.ready = std::move(ready);
   return cell;
 }

@@ -33,6 +33,8 @@ struct ResidentCell {
   StandIn stand_in = StandIn::none;        ///< or damaged_cell, or damaged_textures
   GlBuffer vertices, indices;
   GlVertexArray array;
+  GlBuffer unseen_vertices, unseen_indices;
+  GlVertexArray unseen_array;
   ViewsAvailable views;                     ///< by slot
   std::vector<ViewProjection> projections;  ///< slot * kViews + view
 };

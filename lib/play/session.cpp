@@ -137,7 +137,8 @@ std::vector<SheetKey> make_kinds_key() {
   };
   return {{swatch(Representation::multi_view), "MVMesh, textured from several views"},
           {swatch(Representation::single_view), "SVMesh, from one view"},
-          {swatch(Representation::inside), "original, inside the cell; level that stands in"}};
+          {swatch(Representation::inside), "original, inside the cell; level that stands in"},
+          {swatch(Representation::unseen), "said to be unseen from the cell"}};
 }
 
 // Of each equal part of the path the frame in which the hybrid is farthest from the reference: a

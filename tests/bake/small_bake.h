@@ -1,6 +1,8 @@
 // A park of five objects and some nine cells, baked in a temporary folder.
 #pragma once
 
+#include <functional>
+
 #include "bake/derive.h"
 #include "bake/pack.h"
 #include "base/file.h"
@@ -123,9 +125,12 @@ struct SmallBake {
     return options;
   }
 
-  explicit SmallBake(Scene made = make_bake_scene())
+  /// edit: changes the cells before they are written.
+  explicit SmallBake(Scene made = make_bake_scene(),
+                     const std::function<void(const Scene&, CellSet&)>& edit = {})
       : scene(write_scene(std::move(made), folder.path())) {
     for (int i = 0; i < cells.grid.n_cells(); ++i) list.push_back(CellId(i));
+    if (edit) edit(scene, cells);
     write_file(inputs.cells_file, format_json(format_cells(cells, test_provenance())));
     cells = read_cells(inputs.cells_file);
     settings = {scene.hash, cells.file_hash, {.resolution_px = 256}, "embree"};
@@ -171,6 +176,18 @@ struct SmallBake {
     return pack_bundle(scene, cells, from, which, format, test_provenance(), bundle, 2, {});
   }
 };
+
+/// All cells tested; each sees none of the objects outside of which is_unseen says so.
+inline void mark_unseen(const Scene& scene, CellSet& cells,
+                        const std::function<bool(CellId, ObjectId)>& is_unseen) {
+  const auto n = static_cast<std::size_t>(cells.grid.n_cells());
+  cells.is_tested.assign(n, true), cells.unseen.assign(n, {});
+  cells.seen_by = {{"method", "test"}};
+  for (std::size_t c = 0; c < n; ++c)
+    for (std::size_t o = 0; o < scene.objects.size(); ++o)
+      if (!is_inside(cells, CellId(c), ObjectId(o)) && is_unseen(CellId(c), ObjectId(o)))
+        cells.unseen[c].push_back(ObjectId(o));
+}
 
 inline const SmallBake& shared_bake() {
   static const SmallBake bake;

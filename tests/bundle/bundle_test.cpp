@@ -87,7 +87,8 @@ TEST(Bundle, EveryNumberOfGeometryIsChecked) {
   refused("names object -1", [](CellGeometry& g) { object_of(g, 1).object = -1; });
   refused("object 1 twice", [](CellGeometry& g) { object_of(g, 3).object = 1; });
   refused("kind", [](CellGeometry& g) { object_of(g, 3).kind = 0; });
-  refused("kind", [](CellGeometry& g) { object_of(g, 3).kind = 3; });
+  refused("seen or unseen", [](CellGeometry& g) { object_of(g, 3).kind = 3; });
+  refused("unknown kind", [](CellGeometry& g) { object_of(g, 3).kind = 4; });
   refused("box of object 1", [](CellGeometry& g) { object_of(g, 1).lo[2] = 6; });
   refused("box of object 1", [](CellGeometry& g) { object_of(g, 1).lo[0] = kNaN; });
   refused("box of object 3", [](CellGeometry& g) { object_of(g, 3).hi[1] = kNaN; });

@@ -115,6 +115,43 @@ TEST(CellsFile, ReadsBackTheSame) {
   EXPECT_EQ(format_json(format_cells(back, {})), format_json(format_cells(cells, {})));
 }
 
+CellSet make_tested_cells() {
+  CellSet cells = make_some_cells();
+  const auto n = static_cast<std::size_t>(cells.grid.n_cells());
+  cells.is_tested.assign(n, false), cells.unseen.assign(n, {});
+  cells.is_tested[2] = cells.is_tested[5] = true;
+  for (std::uint32_t o = 0; o < 3; ++o)
+    if (!is_inside(cells, CellId(2), ObjectId(o))) cells.unseen[2].push_back(ObjectId(o));
+  cells.seen_by = {{"method", "rays"}};
+  return cells;
+}
+
+TEST(CellsFile, KeepsWhatCellsSee) {
+  const TemporaryFolder folder;
+  const CellSet cells = make_tested_cells();
+  ASSERT_FALSE(cells.unseen[2].empty());
+  const CellSet back = read_cells(folder.add("cells.json", format_json(format_cells(cells, {}))));
+  EXPECT_EQ(back.is_tested, cells.is_tested);
+  EXPECT_EQ(back.unseen, cells.unseen);
+  EXPECT_EQ(back.seen_by, cells.seen_by);
+  EXPECT_TRUE(is_unseen(back, CellId(2), cells.unseen[2][0]));
+  EXPECT_FALSE(is_unseen(back, CellId(5), cells.unseen[2][0]));
+  EXPECT_FALSE(is_unseen(make_some_cells(), CellId(2), ObjectId(0)));
+  EXPECT_NO_THROW(check_tested(back, {CellId(2), CellId(5)}, "cells.json"));
+  EXPECT_NO_THROW(check_tested(make_some_cells(), {CellId(3)}, "cells.json"));
+  EXPECT_INPUT_ERROR(check_tested(back, {CellId(2), CellId(3)}, "cells.json"),
+                     "cells[3]: was not tested");
+}
+
+TEST(CellsFile, UnseenObjectsAreOutside) {
+  const TemporaryFolder folder;
+  Json bad = format_cells(make_tested_cells(), {});
+  const auto is_full = [](const Json& cell) { return !cell["inside"].empty(); };
+  auto& cell = *std::find_if(bad["cells"].begin(), bad["cells"].end(), is_full);
+  cell["unseen"] = {cell["inside"][0]};
+  EXPECT_INPUT_ERROR(read_cells(folder.add("cells.json", format_json(bad))), "is inside the cell");
+}
+
 TEST(CellsFile, OfAnotherSceneIsRefused) {
   Scene scene = make_box_scene(kArea, {});
   const CellSet cells = make_cells(scene, 50, kHeight);
@@ -134,7 +171,8 @@ TEST(CellsFile, MalformedIsRefusedWithItsPlace) {
     EXPECT_INPUT_ERROR(read_cells(folder.add("cells.json", format_json(bad))), place);
   };
   expect("format", [](Json& j) { j["format"] = "viewcell-scene"; });
-  expect("version", [](Json& j) { j["version"] = 2; });
+  expect("version", [](Json& j) { j["version"] = 3; });
+  expect("seen_by", [](Json& j) { j["version"] = 2; });
   for (const char* key : {"scene_hash", "objects", "size", "origin", "columns", "rows",
                           "eye_height", "near", "cells"}) {
     expect(key, [&](Json& j) { j.erase(key); });

@@ -78,6 +78,15 @@ says "$log/out" '(.samples[0].eye[0] - 100 | fabs) < 3 and (.samples[-1].eye[1] 
 cp "$log/out" one
 expect 0 "$bin/walkpath" yard/scene.json cells.json --through 100,-100 --through -100,100 -o - -q -j 1
 cmp -s "$log/out" one || fail "threads make another walk"
+# What the cells see: of the cells of the walk; again the same, with one thread, from a pipe.
+mv cells.json grid.json
+expect 0 "$bin/pvs" yard/scene.json grid.json --cells path:path.json -o cells.json --json pvs.json
+says pvs.json '.cells == 1 and .rays_per_cell > 10000 and .unseen_share >= 0 and .unseen_share < 0.8'
+says cells.json '.version == 2 and .seen_by.method == "rays" and ([.cells[] | select(has("unseen"))] | length) == 1'
+expect 0 "$bin/pvs" yard/scene.json grid.json --cells path:path.json -j 1 -o - -q
+cmp -s "$log/out" cells.json || fail "threads see other things"
+fault 1 "was not tested for what it sees" "$bin/depthcap" yard/scene.json cells.json --resolution 256 -o x
+fault 2 "--eyes" "$bin/pvs" yard/scene.json grid.json --eyes 1 -o x
 expect 0 "$bin/depthcap" yard/scene.json cells.json --cells path:path.json --resolution 256 -o captures
 expect 0 "$bin/svmesh" yard/scene.json cells.json captures --cells path:path.json -o sv
 expect 0 "$bin/mvmesh" yard/scene.json cells.json captures --cells path:path.json -o mv
@@ -99,5 +108,5 @@ fault 1 "pieces" "$bin/sceneimport" yard.obj --unit 10000 -o x
 fault 1 "no area" "$bin/sceneimport" flat.obj -o x
 mv checker.png away.png
 fault 1 "checker.png" "$bin/sceneimport" yard.obj -o x
-[ "$n_faults" -eq 9 ] || fail "$n_faults faults were tried"
+[ "$n_faults" -eq 11 ] || fail "$n_faults faults were tried"
 echo "sceneimport.sh: all well"

@@ -4,6 +4,7 @@
 #include "common/expect_input_error.h"
 #include "image/metrics.h"
 #include "play/player.h"
+#include "visibility/seen_objects.h"
 
 namespace viewcell {
 namespace {
@@ -130,6 +131,71 @@ TEST(HybridFrame, MasksAreSeenThrough) {
   fs::rename(bake, bake_folder(old, manifest));
   write_file(old / kManifestName, format_json(format_manifest(manifest)));
   EXPECT_INPUT_ERROR(Bundle{old}, "pack it again");
+}
+
+// A wall across the area hides balls. Without what each cell never sees the frames are the same,
+// for fewer texels and draws.
+TEST(HybridFrame, WhatIsNeverSeenIsNotMissed) {
+  Scene scene = make_bake_scene();
+  SceneMesh wall = make_scene_mesh(make_box({58, -60, -40}, {62, 180, 90}), "wall");
+  wall.file = "wall.ply";
+  scene.meshes.push_back(wall);
+  SceneObject object;
+  object.name = "wall", object.mesh = MeshId(2);
+  scene.objects.push_back(object);
+  const SmallBake all(scene);
+  const SmallBake tested(scene, [](const Scene& s, CellSet& cells) {
+    const SeenFinder finder(s, cells, {}, 2);
+    mark_unseen(s, cells, [&](CellId cell, ObjectId o) {
+      const auto unseen = finder.find(cell).unseen;
+      return std::find(unseen.begin(), unseen.end(), o) != unseen.end();
+    });
+  });
+  std::size_t n_unseen = 0;
+  for (const auto& unseen : tested.cells.unseen) n_unseen += unseen.size();
+  EXPECT_GT(n_unseen, 6u);
+  const TemporaryFolder folder;
+  const PackCounts packed = all.pack(folder.path() / "all");
+  const PackCounts packed_less = tested.pack(folder.path() / "tested");
+  EXPECT_EQ(packed_less.n_unseen, n_unseen);
+  EXPECT_LT(packed_less.texel_bytes, packed.texel_bytes);
+  std::vector<Camera> cameras;
+  std::vector<ImageRgba8> pictures;
+  {
+    Stage stage(folder.path() / "all");
+    Random random(38);
+    for (int k = 0; k < 20; ++k) {
+      cameras.push_back(stage.random_camera(random));
+      pictures.push_back(stage.draw(Mode::hybrid, cameras.back()));
+    }
+  }
+  Stage stage(folder.path() / "tested");
+  for (std::size_t k = 0; k < cameras.size(); ++k)
+    EXPECT_EQ(stage.draw(Mode::hybrid, cameras[k]).pixels, pictures[k].pixels) << k;
+}
+
+// Cells that are wrong about everything: what should show is there, coarse, and nothing is a hole.
+TEST(HybridFrame, WhatWasThoughtUnseenLeavesNoHole) {
+  const SmallBake wrong(make_bake_scene(), [](const Scene& s, CellSet& cells) {
+    mark_unseen(s, cells, [](CellId, ObjectId) { return true; });
+  });
+  const TemporaryFolder folder;
+  EXPECT_EQ(wrong.pack(folder.path() / "bundle").texel_bytes, 0u);
+  Stage stage(folder.path() / "bundle");
+  Random random(39);
+  std::size_t n_drawn = 0, n_originals = 0;
+  for (int k = 0; k < 12; ++k) {
+    const Camera camera = stage.random_camera(random);
+    const ImageRgba8 original = stage.draw(Mode::frustum, camera);
+    const std::size_t n_frustum = stage.player.draw(Mode::frustum, camera).n_triangles;
+    const ImageRgba8 hybrid = stage.draw(Mode::hybrid, camera);
+    const DrawnFrame frame = stage.player.draw(Mode::hybrid, camera);
+    EXPECT_EQ(count_uncovered(original, hybrid), 0) << k;
+    EXPECT_EQ(count_uncovered(hybrid, original), 0) << k;
+    EXPECT_GT(count_alpha(hybrid, 254) + count_alpha(hybrid, 255), 200u) << k;
+    n_drawn += frame.n_triangles, n_originals += n_frustum;
+  }
+  EXPECT_LT(2 * n_drawn, n_originals);
 }
 
 // Two points on a line of sight of the view, as far apart as the tolerance allows, are seen from

@@ -51,6 +51,7 @@ int run(Tool& tool, const Options& options) {
                {"single_view", c.n_single_view},
                {"multi_view", c.n_multi_view},
                {"inside", c.n_inside},
+               {"unseen", c.n_unseen},
                {"triangles_inside", c.n_triangles_inside},
                {"triangles_outside", c.n_triangles_outside},
                {"triangles_per_cell_mean", per_cell},

@@ -62,6 +62,7 @@ Json format_counts(const DeriveCounts& counts, std::size_t n_cells, std::size_t 
           {"kept", n_kept},
           {"meshes", counts.n_meshes},
           {"unseen", counts.n_unseen},
+          {"uncaptured", counts.n_uncaptured},
           {"triangles_original", t.n_original},
           {"triangles_start", t.n_start},
           {"triangles_back_facing", t.n_back_facing},
@@ -78,6 +79,7 @@ int run(Tool& tool, Representation kind, Options& options) {
   const CellSet cells = read_cells(options.cells_file);
   check_cells_of_scene(cells, scene, options.cells_file);
   const auto list = select_cells(cells, options.cell_list, options.slice);
+  check_tested(cells, list, options.cells_file);
   const CaptureSettings settings = read_settings(options.captures, scene, cells.file_hash);
   options.bake.resolution_px = settings.density.resolution_px;
   const std::string made_by =

@@ -47,7 +47,9 @@ int run(Tool& tool, const DepthcapArguments& a) {
   register_scene_files(tool, scene, a.scene_file);
   const CellSet cells = read_cells(a.cells_file);
   check_cells_of_scene(cells, scene, a.cells_file);
-  const auto centres = centres_of(cells, select_cells(cells, a.cell_list, a.slice));
+  const auto list = select_cells(cells, a.cell_list, a.slice);
+  check_tested(cells, list, a.cells_file);
+  const auto centres = centres_of(cells, list);
   const CaptureSettings settings{scene.hash, cells.file_hash, a.density, a.engine};
   const std::filesystem::path folder = tool.common().output;
   make_folder(folder);
