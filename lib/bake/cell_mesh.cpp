@@ -209,7 +209,7 @@ CellObject choose_representation(const BakeScene& bake, CellId cell, ObjectId id
                                  const BakeOptions& options) {
   CellObject out;
   out.object = id;
-  if (is_inside(bake.cells, cell, id)) return out;
+  if (is_original(bake.cells, cell, id)) return out;
   const SceneObject& object = bake.scene.objects[index(id)];
   const bool unseen = is_unseen(bake.cells, cell, id);
   out.level = &choose_start(bake, cell, id, options,
@@ -228,7 +228,7 @@ CellObject choose_representation(const BakeScene& bake, CellId cell, ObjectId id
 CellMesh derive_mesh(const BakeScene& bake, CellId cell, CellObject object,
                      std::span<const ClassifiedView> views, const BakeOptions& options,
                      CellMeshCounts& counts) {
-  VIEWCELL_CHECK(object.kind != Representation::inside && object.level);
+  VIEWCELL_CHECK(object.kind != Representation::original && object.level);
   const SceneObject& placed = bake.scene.objects[index(object.object)];
   const StartLevel& level = *object.level;
   const std::vector<Triangle>& start = level.mesh.triangles;

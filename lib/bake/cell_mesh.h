@@ -40,13 +40,13 @@ BakeScene build_bake_scene(const Scene& scene, const CellSet& cells, int n_threa
 /// choose that and is reused to build its mesh.
 struct CellObject {
   ObjectId object{};
-  Representation kind = Representation::inside;
+  Representation kind = Representation::original;
   const StartLevel* level = nullptr;  ///< of the BakeScene; null inside, where the rest is empty
   ViewVertices vertices;              ///< the level's, world; no weights, no views yet
   FaceSides sides;                    ///< of the level's triangles
 };
 
-/// Inside the cell, unseen from it (the cells say so), or one view where the self-occluding error
+/// As it is, or unseen from the cell (the cells say so), or one view where the self-occluding error
 /// is below T_s, else several. Every object of a cell is exactly one of them, in every tool.
 CellObject choose_representation(const BakeScene& bake, CellId cell, ObjectId object,
                                  const BakeOptions& options);

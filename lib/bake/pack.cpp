@@ -95,9 +95,9 @@ CentreTextures read_textures(const Scene& scene, const fs::path& captures,
   return out;
 }
 
-std::size_t count_inside(const Scene& scene, const CellSet& cells, CellId cell) {
+std::size_t count_originals(const Scene& scene, const CellSet& cells, CellId cell) {
   std::size_t n = 0;
-  for (const ObjectId object : cells.inside[index(cell)])
+  for (const ObjectId object : originals_of(cells, cell))
     n += scene.mesh_of(scene.objects[index(object)]).mesh.triangles.size();
   return n;
 }
@@ -105,7 +105,8 @@ std::size_t count_inside(const Scene& scene, const CellSet& cells, CellId cell) 
 void add_cell(const Scene& scene, const CellSet& cells, CellId cell, const CellMeshes& meshes,
               PackCounts& counts) {
   counts.n_inside += cells.inside[index(cell)].size();
-  counts.n_triangles_inside += count_inside(scene, cells, cell);
+  counts.n_own += originals_of(cells, cell).size() - cells.inside[index(cell)].size();
+  counts.n_triangles_originals += count_originals(scene, cells, cell);
   for (std::size_t m = 0; m < meshes.meshes.size(); ++m) {
     counts.n_triangles_outside += meshes.meshes[m].triangles.size();
     switch (meshes.kinds[m]) {

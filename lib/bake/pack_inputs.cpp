@@ -27,7 +27,7 @@ void check_has_objects(const Scene& scene, const fs::path& scene_file) {
 void check_all_there(const CellSet& cells, const PackInputs& inputs, CellId cell,
                      const std::vector<int>& n_times) {
   for (std::size_t o = 0; o < n_times.size(); ++o) {
-    const int expected = is_inside(cells, cell, ObjectId(o)) ? 0 : 1;
+    const int expected = is_original(cells, cell, ObjectId(o)) ? 0 : 1;
     if (n_times[o] != expected)
       throw InputError(inputs.svmesh.string(), "cell " + std::to_string(static_cast<int>(cell)),
                        "object " + std::to_string(o) + " is in " + std::to_string(n_times[o]) +

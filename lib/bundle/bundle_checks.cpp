@@ -21,8 +21,8 @@ void check_object(const BundleObject& o, const Scene& scene, const CellSet& cell
   const auto at = static_cast<std::size_t>(o.object);
   if (seen[at]) reader.fail("OBJECTS", "has " + name + " twice");
   seen[at] = true;
-  if (is_inside(cells, cell, ObjectId(o.object)))
-    reader.fail("OBJECTS", "has " + name + ", which is inside the cell");
+  if (is_original(cells, cell, ObjectId(o.object)))
+    reader.fail("OBJECTS", "has " + name + ", which is inside the cell or drawn as it is");
   if ((Representation(o.kind) == Representation::unseen) !=
       is_unseen(cells, cell, ObjectId(o.object)))
     reader.fail("OBJECTS", "has " + name + " seen or unseen, and cells.json the other");
@@ -76,7 +76,7 @@ void check_geometry(const CellGeometry& g, const Scene& scene, const CellSet& ce
                     const SectionReader& reader) {
   std::vector<bool> seen(scene.objects.size());
   for (const BundleObject& o : g.objects) check_object(o, scene, cells, cell, seen, reader);
-  if (g.objects.size() + cells.inside[index(cell)].size() != scene.objects.size())
+  if (g.objects.size() + originals_of(cells, cell).size() != scene.objects.size())
     reader.fail("OBJECTS", "lacks objects that are outside the cell");
   check_counts(g, reader);
   std::size_t v = 0, i = 0;

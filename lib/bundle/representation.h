@@ -5,9 +5,9 @@
 
 namespace viewcell {
 
-/// inside: the original; single_view: an SVMesh; multi_view: an MVMesh [Chen06 5.2.1]; unseen: what
-/// no eye in the cell was found to see, a coarse level without textures, drawn where nothing else
-/// is. The numbers are those of bundle files.
-enum class Representation : std::uint8_t { inside, single_view, multi_view, unseen };
+/// original: as it is, in its own materials; single_view: an SVMesh; multi_view: an MVMesh
+/// [Chen06 5.2.1]; unseen: what no eye in the cell was found to see, a coarse level without
+/// textures, drawn where nothing else is. The numbers are those of bundle files.
+enum class Representation : std::uint8_t { original, single_view, multi_view, unseen };
 
 }  // namespace viewcell

@@ -148,7 +148,7 @@ std::vector<ObjectId> objects_seen_from(const CellSet& cells, CentreId centre) {
     const auto cell = cell_at(cells.grid, where);
     if (!cell || (!cells.is_tested.empty() && !cells.is_tested[index(*cell)])) return;
     for (std::size_t o = 0; o < cells.n_objects; ++o)
-      if (!is_inside(cells, *cell, ObjectId(o)) && !is_unseen(cells, *cell, ObjectId(o)))
+      if (!is_original(cells, *cell, ObjectId(o)) && !is_unseen(cells, *cell, ObjectId(o)))
         seen.insert(ObjectId(o));
   };
   add_outside_of(hex);

@@ -31,8 +31,8 @@ CaptureSettings read_settings(const std::filesystem::path& folder, const Scene& 
 /// folder/centre-00012.exr
 std::filesystem::path capture_file_of(const std::filesystem::path& folder, CentreId centre);
 
-/// The objects that a centre captures: those that some cell of its closed neighbourhood has outside
-/// and may see; where cells were tested for that, the others do not count.
+/// The objects that a centre captures: those that some cell of its closed neighbourhood may see
+/// and does not draw as they are; where cells were tested for that, the others do not count.
 std::vector<ObjectId> objects_seen_from(const CellSet& cells, CentreId centre);
 
 /// Writes a centre's tiles, whole or not at all.

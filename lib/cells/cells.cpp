@@ -23,7 +23,7 @@ ConvexPolygon make_footprint(const Scene& scene, const SceneObject& object) {
   return convex_hull(std::move(points));
 }
 
-// The second adds what the cells see; without it the first is written.
+// The second adds what the cells see and what is drawn as it is; without them the first is written.
 constexpr JsonVersions kVersions{1, 2};
 
 std::vector<ObjectId> read_objects(const JsonCursor& cursor, std::size_t n_objects) {
@@ -37,14 +37,27 @@ std::vector<ObjectId> read_objects(const JsonCursor& cursor, std::size_t n_objec
   return ids;
 }
 
+void refuse_inside(const JsonCursor& list, const std::vector<ObjectId>& objects,
+                   const CellSet& cells) {
+  for (std::size_t i = 0; i < objects.size(); ++i)
+    if (is_inside(cells, CellId(cells.inside.size() - 1), objects[i]))
+      list.at(i).fail("is inside the cell");
+}
+
+void read_own(const JsonCursor& cell, CellSet& cells) {
+  if (!cell.has("own")) return;
+  cells.own.resize(static_cast<std::size_t>(cells.grid.n_cells()));
+  std::vector<ObjectId>& own = cells.own[cells.inside.size() - 1];
+  own = read_objects(cell.at("own"), cells.n_objects);
+  refuse_inside(cell.at("own"), own, cells);
+}
+
 void read_unseen(const JsonCursor& cell, CellSet& cells) {
   cells.is_tested.push_back(cell.has("unseen"));
   std::vector<ObjectId>& unseen = cells.unseen.emplace_back();
   if (!cells.is_tested.back()) return;
   unseen = read_objects(cell.at("unseen"), cells.n_objects);
-  for (std::size_t i = 0; i < unseen.size(); ++i)
-    if (is_inside(cells, CellId(cells.inside.size() - 1), unseen[i]))
-      cell.at("unseen").at(i).fail("is inside the cell");
+  refuse_inside(cell.at("unseen"), unseen, cells);
 }
 
 Json format_objects(const std::vector<ObjectId>& ids) {
@@ -65,6 +78,8 @@ Json format_cell(const CellSet& cells, CellId cell) {
               {"centre", {centre.x, centre.y}},
               {"neighbours", neighbours},
               {"inside", format_objects(cells.inside[index(cell)])}};
+  if (!cells.own.empty() && !cells.own[index(cell)].empty())
+    out["own"] = format_objects(cells.own[index(cell)]);
   if (!cells.is_tested.empty() && cells.is_tested[index(cell)])
     out["unseen"] = format_objects(cells.unseen[index(cell)]);
   return out;
@@ -108,6 +123,22 @@ bool is_unseen(const CellSet& cells, CellId cell, ObjectId object) {
   return std::binary_search(unseen.begin(), unseen.end(), object);
 }
 
+bool is_original(const CellSet& cells, CellId cell, ObjectId object) {
+  if (is_inside(cells, cell, object)) return true;
+  if (cells.own.empty()) return false;
+  const auto& own = cells.own[index(cell)];
+  return std::binary_search(own.begin(), own.end(), object) && !is_unseen(cells, cell, object);
+}
+
+std::vector<ObjectId> originals_of(const CellSet& cells, CellId cell) {
+  std::vector<ObjectId> out = cells.inside[index(cell)];
+  if (cells.own.empty()) return out;
+  for (const ObjectId object : cells.own[index(cell)])
+    if (!is_unseen(cells, cell, object)) out.push_back(object);
+  std::sort(out.begin(), out.end());
+  return out;
+}
+
 void check_tested(const CellSet& cells, const std::vector<CellId>& list,
                   const std::filesystem::path& file) {
   if (cells.is_tested.empty()) return;
@@ -149,7 +180,8 @@ CellSet read_cells(const std::filesystem::path& file) {
   cells.eye_height = {height[0], height[1]};
   if (height[0] > height[1]) root.at("eye_height").fail("is not LO, HI with LO <= HI");
   cells.near = root.at("near").number(1e-9, 1e6);
-  const bool has_tests = root.at("version").integer(kVersions.first, kVersions.last) == 2;
+  const bool is_second = root.at("version").integer(kVersions.first, kVersions.last) == 2;
+  const bool has_tests = is_second && root.has("seen_by");
   if (has_tests) cells.seen_by = root.at("seen_by").value();
   const JsonCursor list = root.at("cells");
   if (list.size() != static_cast<std::size_t>(cells.grid.n_cells()))
@@ -158,6 +190,7 @@ CellSet read_cells(const std::filesystem::path& file) {
     const JsonCursor cell = list.at(i);
     cell.at("id").integer(static_cast<std::int64_t>(i), static_cast<std::int64_t>(i));
     cells.inside.push_back(read_objects(cell.at("inside"), cells.n_objects));
+    if (is_second) read_own(cell, cells);
     if (has_tests) read_unseen(cell, cells);
   }
   return cells;
@@ -167,8 +200,10 @@ Json format_cells(const CellSet& cells, const Json& provenance) {
   Json list = Json::array();
   for (int i = 0; i < cells.grid.n_cells(); ++i) list.push_back(format_cell(cells, CellId(i)));
   const bool has_tests = !cells.is_tested.empty();
+  const bool has_own = std::any_of(cells.own.begin(), cells.own.end(),
+                                   [](const std::vector<ObjectId>& own) { return !own.empty(); });
   Json out = {{"format", kFormat},
-              {"version", has_tests ? kVersions.last : kVersions.first},
+              {"version", has_tests || has_own ? kVersions.last : kVersions.first},
               {"made_by", provenance},
               {"scene_hash", cells.scene_hash},
               {"objects", cells.n_objects},

@@ -24,6 +24,9 @@ struct CellSet {
   std::string file_hash;   ///< hash_hex() of the bytes of cells.json; empty: not read from a file
   std::size_t n_objects = 0;
   std::vector<std::vector<ObjectId>> inside;  ///< per cell, ascending
+  /// Per cell, ascending: objects outside that are drawn as they are, too (cells/own_materials.h).
+  /// Empty: no cell has any.
+  std::vector<std::vector<ObjectId>> own;
   /// Which cells were tested for what they see (visibility/seen_objects.h), and the objects outside
   /// that each of these never sees, ascending. Both empty: no cell was, and each sees all.
   std::vector<bool> is_tested;
@@ -40,6 +43,9 @@ CellSet make_cells(const Scene& scene, double size, const EyeHeight& eye_height)
 
 bool is_inside(const CellSet& cells, CellId cell, ObjectId object);
 bool is_unseen(const CellSet& cells, CellId cell, ObjectId object);
+/// What is drawn as it is: what is inside, and of what is outside those of `own` that may be seen.
+bool is_original(const CellSet& cells, CellId cell, ObjectId object);
+std::vector<ObjectId> originals_of(const CellSet& cells, CellId cell);  ///< ascending
 /// Throws InputError when some of the cells were tested for what they see, but not all of the list:
 /// their captures would lack what the others see.
 void check_tested(const CellSet& cells, const std::vector<CellId>& list,

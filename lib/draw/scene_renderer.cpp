@@ -56,7 +56,7 @@ std::string ground_fragment(const Lighting& lighting) {
 
 SceneRenderer::SceneRenderer(const Gl& gl, const Scene& scene,
                              const std::vector<MeshLevels>& levels)
-    : gl_(gl), array_(gl), ground_array_(gl) {
+    : gl_(gl), array_(gl), batched_draws_(gl, array_), ground_array_(gl) {
   VIEWCELL_CHECK(levels.size() == scene.meshes.size(), levels.size(), scene.meshes.size());
   for (const SceneObject& object : scene.objects) add_object(scene, object);
   upload(levels);
@@ -83,8 +83,13 @@ void SceneRenderer::add_object(const Scene& scene, const SceneObject& object) {
   for (std::size_t slot = 0; slot < mesh.n_slots; ++slot) {
     const Material& material = scene.material_of(object, slot);
     const SurfaceKind kind = surface_kind(material, mesh);
-    out.looks.push_back({&material, &program_for(scene.lighting, kind),
-                         &program_for(scene.lighting, {.is_double_sided = kind.is_double_sided}),
+    const SurfaceKind plain{.is_double_sided = kind.is_double_sided};
+    const auto program = [&](const SurfaceKind& of, Placing placing) {
+      return &program_for(scene.lighting, of, placing);
+    };
+    out.looks.push_back({&material, program(kind, Placing::uniforms),
+                         program(plain, Placing::uniforms), program(kind, Placing::attributes),
+                         program(plain, Placing::attributes),
                          kind.has_picture ? texture_for(scene, material) : 0});
   }
 }
@@ -97,12 +102,12 @@ GLuint SceneRenderer::texture_for(const Scene& scene, const Material& material) 
 }
 
 const SceneRenderer::Program& SceneRenderer::program_for(const Lighting& lighting,
-                                                         const SurfaceKind& kind) {
-  const auto [at, is_new] = programs_.try_emplace(kind);
+                                                         const SurfaceKind& kind, Placing placing) {
+  const auto [at, is_new] = programs_.try_emplace({kind, placing});
   if (!is_new) return at->second;
   Program& out = at->second;
-  out.program =
-      GlProgram(gl_, "surface", surface_vertex_glsl(kind), object_fragment(lighting, kind));
+  out.program = GlProgram(gl_, "surface", surface_vertex_glsl(kind, placing),
+                          object_fragment(lighting, kind));
   out.is_double_sided = kind.is_double_sided;
   out.clip_from_model = out.program.uniform("clip_from_model");
   out.normal_matrix = out.program.uniform("normal_matrix");
@@ -115,7 +120,8 @@ const SceneRenderer::Program& SceneRenderer::program_for(const Lighting& lightin
 
 void SceneRenderer::upload(const std::vector<MeshLevels>& levels) {
   const bool are_dressed = std::any_of(programs_.begin(), programs_.end(), [](const auto& program) {
-    return program.first.has_picture || program.first.has_colors;
+    const SurfaceKind& kind = program.first.first;
+    return kind.has_picture || kind.has_colors;
   });
   std::vector<LitVertex> vertices;
   std::vector<DressedVertex> dressed;
@@ -179,11 +185,8 @@ void SceneRenderer::draw_background(const GlFramebuffer& target,
   gl_.Enable(GL_DEPTH_TEST);
 }
 
-void SceneRenderer::use(const Object& object, std::int32_t slot, const glm::dmat4& clip_from_world,
-                        const DrawStyle& style, DrawState& state) const {
-  const Look& look = object.looks[static_cast<std::size_t>(slot)];
-  const Program& program = style.base_color ? *look.plain : *look.program;
-  const GLuint id = program.program.id();
+void SceneRenderer::use(const Look& look, const Program& program, const DrawStyle& style,
+                        DrawState& state) const {
   if (state.program != &program) {
     program.program.use();
     (style.cull_back_faces && !program.is_double_sided ? gl_.Enable : gl_.Disable)(GL_CULL_FACE);
@@ -193,18 +196,24 @@ void SceneRenderer::use(const Object& object, std::int32_t slot, const glm::dmat
     gl_.BindTextureUnit(0, look.texture);
     state.texture = look.texture;
   }
-  // The product in double: near an eye far from the origin, float would lose what cancels.
-  const glm::mat4 clip_from_model(clip_from_world * object.world_from_model);
+  const GLuint id = program.program.id();
   const glm::vec3 base_color = style.base_color.value_or(look.material->base_color);
   const glm::vec3 emissive = style.base_color ? glm::vec3(0) : look.material->emissive;
-  gl_.ProgramUniformMatrix4fv(id, program.clip_from_model, 1, GL_FALSE,
-                              glm::value_ptr(clip_from_model));
-  gl_.ProgramUniformMatrix3fv(id, program.normal_matrix, 1, GL_FALSE,
-                              glm::value_ptr(object.rotation));
   gl_.ProgramUniform3fv(id, program.base_color, 1, glm::value_ptr(base_color));
   gl_.ProgramUniform3fv(id, program.emissive, 1, glm::value_ptr(emissive));
   gl_.ProgramUniform1f(id, program.opacity, look.material->opacity);
   gl_.ProgramUniform1f(id, program.alpha_cutoff, look.material->alpha_cutoff);
+}
+
+void SceneRenderer::place(const Object& object, const Program& program,
+                          const glm::dmat4& clip_from_world) const {
+  // The product in double: near an eye far from the origin, float would lose what cancels.
+  const glm::mat4 clip_from_model(clip_from_world * object.world_from_model);
+  const GLuint id = program.program.id();
+  gl_.ProgramUniformMatrix4fv(id, program.clip_from_model, 1, GL_FALSE,
+                              glm::value_ptr(clip_from_model));
+  gl_.ProgramUniformMatrix3fv(id, program.normal_matrix, 1, GL_FALSE,
+                              glm::value_ptr(object.rotation));
 }
 
 void SceneRenderer::draw_range(const Range& range, std::uint32_t first_triangle,
@@ -223,50 +232,72 @@ void SceneRenderer::draw_objects(const glm::dmat4& clip_from_world,
     const Object& object = objects_[index(draw.object)];
     const auto& ranges = ranges_[index(object.mesh)][static_cast<std::size_t>(draw.level)];
     for (const Range& range : ranges) {
-      use(object, range.slot, clip_from_world, style, state);
+      const Look& look = object.looks[static_cast<std::size_t>(range.slot)];
+      const Program& program = style.base_color ? *look.plain : *look.program;
+      use(look, program, style, state);
+      place(object, program, clip_from_world);
       draw_range(range, 0, static_cast<std::uint32_t>(range.n_indices / 3));
     }
   }
   gl_.Enable(GL_CULL_FACE);
 }
 
-std::size_t SceneRenderer::draw_clusters(const Camera& camera, std::span<const ObjectId> objects,
-                                         const DrawStyle& style) const {
-  const glm::dmat4 clip = clip_from_world(camera);
+// The runs of clusters that may show, in the batches of their looks; a new look is a new batch.
+void SceneRenderer::collect_clusters(const Camera& camera, const Frustum& frustum, ObjectId id,
+                                     std::vector<const Look*>& batches) {
+  const Object& object = objects_[index(id)];
+  const SceneObject& placed = *scene_objects_[index(id)];
+  const glm::dvec3 eye_model = placed.model_from_world(camera.eye);
+  std::optional<std::uint32_t> number;  // once something is drawn
+  for (const auto& [range, clusters] : clusters_[index(object.mesh)]) {
+    const Look& look = object.looks[static_cast<std::size_t>(range.slot)];
+    std::uint32_t first = 0, n = 0;  // a run of clusters to draw, in triangles
+    const auto add_run = [&] {
+      if (n == 0) return;
+      if (!number)
+        number = batched_draws_.add_object(
+            glm::mat4(clip_from_world(camera) * object.world_from_model), object.rotation);
+      auto batch = std::find_if(batches.begin(), batches.end(), [&](const Look* other) {
+        return other->material == look.material && other->batched == look.batched;
+      });
+      if (batch == batches.end()) batch = batches.insert(batch, &look);
+      const auto first_index = static_cast<std::uint32_t>(range.index_offset / 4 + 3 * first);
+      batched_draws_.add_run(static_cast<std::size_t>(batch - batches.begin()), *number,
+                             first_index, 3 * n, range.first_vertex);
+      n = 0;
+    };
+    for (const Cluster& cluster : clusters) {
+      const bool hidden = (!look.material->double_sided && is_back_facing(cluster, eye_model)) ||
+                          !may_meet(frustum, placed.world_from_model(cluster.centre),
+                                    cluster.radius * placed.scale);
+      if (hidden) {
+        add_run();
+      } else {
+        if (n == 0) first = cluster.first_triangle;
+        n += cluster.n_triangles;
+      }
+    }
+    add_run();
+  }
+}
+
+SceneRenderer::Drawn SceneRenderer::draw_clusters(const Camera& camera,
+                                                  std::span<const ObjectId> objects,
+                                                  const DrawStyle& style) {
   const Frustum frustum = make_frustum(camera);
+  std::vector<const Look*> batches;
+  batched_draws_.clear();
+  for (const ObjectId id : objects) collect_clusters(camera, frustum, id, batches);
+  batched_draws_.upload();
   array_.bind();
   DrawState state;
-  std::size_t n_drawn = 0;
-  for (const ObjectId id : objects) {
-    const Object& object = objects_[index(id)];
-    const SceneObject& placed = *scene_objects_[index(id)];
-    const glm::dvec3 eye_model = placed.model_from_world(camera.eye);
-    for (const auto& [range, clusters] : clusters_[index(object.mesh)]) {
-      use(object, range.slot, clip, style, state);
-      const bool both_sides =
-          object.looks[static_cast<std::size_t>(range.slot)].material->double_sided;
-      std::uint32_t first = 0, n = 0;  // a run of clusters to draw, in triangles
-      const auto draw_run = [&] {
-        if (n > 0) draw_range(range, first, n);
-        n_drawn += n;
-        n = 0;
-      };
-      for (const Cluster& cluster : clusters) {
-        const bool hidden = (!both_sides && is_back_facing(cluster, eye_model)) ||
-                            !may_meet(frustum, placed.world_from_model(cluster.centre),
-                                      cluster.radius * placed.scale);
-        if (hidden) {
-          draw_run();
-        } else {
-          if (n == 0) first = cluster.first_triangle;
-          n += cluster.n_triangles;
-        }
-      }
-      draw_run();
-    }
+  for (std::size_t i = 0; i < batches.size(); ++i) {
+    const Look& look = *batches[i];
+    use(look, style.base_color ? *look.batched_plain : *look.batched, style, state);
+    batched_draws_.draw(i);
   }
   gl_.Enable(GL_CULL_FACE);
-  return n_drawn;
+  return {batched_draws_.n_triangles(), batches.size()};
 }
 
 glm::dmat4 shift_pixels(const glm::dmat4& clip_from_world, const glm::dvec2& shift_px, int width_px,

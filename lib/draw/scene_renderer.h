@@ -8,6 +8,7 @@
 #include <tuple>
 #include <vector>
 
+#include "draw/batched_draws.h"
 #include "draw/frame_plan.h"
 #include "draw/mesh_levels.h"
 #include "gl/framebuffer.h"
@@ -40,11 +41,15 @@ class SceneRenderer {
   /// Into the bound framebuffer.
   void draw_objects(const glm::dmat4& clip_from_world, std::span<const ObjectDraw> draws,
                     const DrawStyle& style = {}) const;
+  struct Drawn {
+    std::size_t n_triangles = 0;
+    std::size_t n_calls = 0;  ///< one for each material
+  };
   /// The original of each object, front to back as given, without the clusters of triangles that
   /// lie outside the frustum or turn their backs on the eye [Chen06 5.2.2, run-time back-face
-  /// culling]. Returns the triangles drawn.
-  std::size_t draw_clusters(const Camera& camera, std::span<const ObjectId> objects,
-                            const DrawStyle& style = {}) const;
+  /// culling]; those of one material by one call. The same pixels as draw_objects.
+  Drawn draw_clusters(const Camera& camera, std::span<const ObjectId> objects,
+                      const DrawStyle& style = {});
 
  private:
   struct Range {
@@ -63,8 +68,10 @@ class SceneRenderer {
   struct Look {
     const Material* material;
     const Program* program;
-    const Program* plain;  // the same sides, without picture, colours and holes
-    GLuint texture;        // 0: none
+    const Program* plain;    // the same sides, without picture, colours and holes
+    const Program* batched;  // as program, and as plain, with placings as attributes
+    const Program* batched_plain;
+    GLuint texture;  // 0: none
   };
   struct Object {
     glm::dmat4 world_from_model;
@@ -85,9 +92,12 @@ class SceneRenderer {
   void upload(const std::vector<MeshLevels>& levels);
   void add_object(const Scene& scene, const SceneObject& object);
   GLuint texture_for(const Scene& scene, const Material& material);
-  const Program& program_for(const Lighting& lighting, const SurfaceKind& kind);
-  void use(const Object& object, std::int32_t slot, const glm::dmat4& clip_from_world,
-           const DrawStyle& style, DrawState& state) const;
+  const Program& program_for(const Lighting& lighting, const SurfaceKind& kind, Placing placing);
+  void use(const Look& look, const Program& program, const DrawStyle& style,
+           DrawState& state) const;
+  void place(const Object& object, const Program& program, const glm::dmat4& clip_from_world) const;
+  void collect_clusters(const Camera& camera, const Frustum& frustum, ObjectId object,
+                        std::vector<const Look*>& batches);
   void draw_range(const Range& range, std::uint32_t first_triangle, std::uint32_t n) const;
 
   const Gl& gl_;
@@ -97,7 +107,8 @@ class SceneRenderer {
   std::vector<const SceneObject*> scene_objects_;        // by object
   GlBuffer vertices_, dressed_, indices_;
   GlVertexArray array_;
-  std::map<SurfaceKind, Program> programs_;
+  BatchedDraws batched_draws_;
+  std::map<std::pair<SurfaceKind, Placing>, Program> programs_;
   std::map<std::tuple<int, Wrap, Wrap>, GlTexture> textures_;  // by picture and wraps
   GlProgram ground_program_;
   GlBuffer ground_vertices_;

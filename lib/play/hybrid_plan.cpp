@@ -146,7 +146,7 @@ HybridPlan plan_hybrid(const PlanScene& scene, const CellSet& cells, const Ready
     plan.n_triangles += cell.unseen[slot].n_indices / 3;
   }
   plan.unseen = front_to_back(std::move(unseen));
-  plan.inside = select_visible(scene, culling.frustum(), camera, cells.inside[index(cell.cell)]);
+  plan.originals = select_visible(scene, culling.frustum(), camera, originals_of(cells, cell.cell));
   return plan;
 }
 

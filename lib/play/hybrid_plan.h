@@ -31,7 +31,7 @@ struct HybridDraw {
 };
 
 struct HybridPlan {
-  std::vector<ObjectId> inside;     ///< drawn as they are, front to back
+  std::vector<ObjectId> originals;  ///< drawn as they are, front to back
   std::vector<HybridDraw> outside;  ///< front to back
   /// Places in ReadyCell::unseen, front to back; drawn behind all, by one draw.
   std::vector<std::uint16_t> unseen;
@@ -42,7 +42,7 @@ struct HybridPlan {
 /// 5.2.2]). All six when it looks so far up or down that the horizon leaves the frame.
 std::uint8_t find_visible_windows(const HexGrid& grid, CellId cell, const Camera& camera);
 
-/// Window culling, then frustum culling, of a cell's outside objects; inside objects by frustum.
+/// Window culling, then frustum culling, of a cell's outside objects; of originals by frustum.
 HybridPlan plan_hybrid(const PlanScene& scene, const CellSet& cells, const ReadyCell& cell,
                        const ViewsAvailable& views, const Camera& camera);
 

@@ -49,7 +49,7 @@ glm::vec3 middle_of(const ReadyObject& object) {
 
 glm::vec3 kind_color(Representation kind) {
   switch (kind) {
-    case Representation::inside:
+    case Representation::original:
       return {0.55f, 0.5f, 0.42f};
     case Representation::single_view:
       return {0.35f, 0.08f, 0.45f};

@@ -36,18 +36,21 @@ DrawnFrame Player::draw_resident(const Camera& camera, const ResidentCell& cell,
       plan_hybrid(plan_scene_, bundle_.cells(), *cell.ready, cell.views, camera);
   scene_renderer_.draw_background(target_, clip_from_world(camera));
   DrawStyle inside_style;
-  if (style != HybridStyle::textured) inside_style.base_color = kind_color(Representation::inside);
-  const std::size_t n_inside = scene_renderer_.draw_clusters(camera, plan.inside, inside_style);
+  if (style != HybridStyle::textured)
+    inside_style.base_color = kind_color(Representation::original);
+  const SceneRenderer::Drawn originals =
+      scene_renderer_.draw_clusters(camera, plan.originals, inside_style);
   hybrid_renderer_.draw(camera, cell, residency_.texel_texture(), plan, style);
   unseen_renderer_.draw(camera, cell, plan, style);
   const std::size_t n_draws =
-      plan.inside.size() + plan.outside.size() + (plan.unseen.empty() ? 0 : 1);
-  return {0, n_inside + plan.n_triangles, n_draws, residency_.texture_bytes(), cell.stand_in};
+      originals.n_calls + plan.outside.size() + (plan.unseen.empty() ? 0 : 1);
+  return {0, originals.n_triangles + plan.n_triangles, n_draws, residency_.texture_bytes(),
+          cell.stand_in};
 }
 
 DrawnFrame Player::draw_stand_in(const Camera& camera, StandIn why, HybridStyle style) {
   DrawStyle look;
-  if (style != HybridStyle::textured) look.base_color = kind_color(Representation::inside);
+  if (style != HybridStyle::textured) look.base_color = kind_color(Representation::original);
   DrawnFrame frame =
       draw_plan(plan_lod(plan_scene_, camera, options_.height_px), clip_from_world(camera), look);
   frame.texture_bytes = residency_.texture_bytes();

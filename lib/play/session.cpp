@@ -137,7 +137,8 @@ std::vector<SheetKey> make_kinds_key() {
   };
   return {{swatch(Representation::multi_view), "MVMesh, textured from several views"},
           {swatch(Representation::single_view), "SVMesh, from one view"},
-          {swatch(Representation::inside), "original, inside the cell; level that stands in"},
+          {swatch(Representation::original),
+           "original, inside the cell or better so; level that stands in"},
           {swatch(Representation::unseen), "said to be unseen from the cell"}};
 }
 

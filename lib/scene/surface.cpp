@@ -108,8 +108,12 @@ SurfaceKind surface_kind(const Material& material, const SceneMesh& mesh) {
           .is_double_sided = material.double_sided};
 }
 
-std::string surface_vertex_glsl(const SurfaceKind& kind) {
+std::string surface_vertex_glsl(const SurfaceKind& kind, Placing placing) {
   std::string inputs, outputs, sets;
+  inputs = placing == Placing::uniforms ? "uniform mat4 clip_from_model;\n"
+                                          "uniform mat3 normal_matrix;\n"
+                                        : "layout(location = 4) in mat4 clip_from_model;\n"
+                                          "layout(location = 8) in mat3 normal_matrix;\n";
   if (kind.has_picture) {
     inputs += "layout(location = 2) in vec2 texcoord;\n";
     outputs += "layout(location = 1) out vec2 uv;\n";
@@ -123,11 +127,8 @@ std::string surface_vertex_glsl(const SurfaceKind& kind) {
   return "#version 450 core\n"
          "layout(location = 0) in vec3 position;\n"
          "layout(location = 1) in vec3 normal;\n" +
-         inputs +
-         "uniform mat4 clip_from_model;\n"
-         "uniform mat3 normal_matrix;\n"
-         "layout(location = 0) out vec3 normal_world;\n" +
-         outputs + "void main() {\n  normal_world = normal_matrix * normal;\n" + sets +
+         inputs + "layout(location = 0) out vec3 normal_world;\n" + outputs +
+         "void main() {\n  normal_world = normal_matrix * normal;\n" + sets +
          "  gl_Position = clip_from_model * vec4(position, 1);\n}\n";
 }
 

@@ -69,10 +69,14 @@ struct SurfaceKind {
 };
 SurfaceKind surface_kind(const Material& material, const SceneMesh& mesh);
 
-/// The vertex shader of surfaces: clip_from_model and normal_matrix, positions and normals at
-/// attributes 0 and 1, what `kind` asks for at kTexcoordPlace and kColorPlace.
-std::string surface_vertex_glsl(const SurfaceKind& kind);
-inline constexpr unsigned kTexcoordPlace = 2, kColorPlace = 3;
+/// How a program is told where the object stands: by uniforms clip_from_model and normal_matrix, or
+/// by attributes at kClipPlace and kNormalPlace, a column each.
+enum class Placing { uniforms, attributes };
+
+/// The vertex shader of surfaces: positions and normals at attributes 0 and 1, what `kind` asks for
+/// at kTexcoordPlace and kColorPlace.
+std::string surface_vertex_glsl(const SurfaceKind& kind, Placing placing = Placing::uniforms);
+inline constexpr unsigned kTexcoordPlace = 2, kColorPlace = 3, kClipPlace = 4, kNormalPlace = 8;
 
 /// After a line #version: declares what such a vertex shader hands over, uniforms base_color and,
 /// as far as `kind` asks for them (software rasterisers pay for each that a fragment reads),

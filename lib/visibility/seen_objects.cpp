@@ -17,8 +17,10 @@ constexpr int kLeastRays = 64;    // aimed at an object
 // A ray that comes so near to the point that it is aimed at has met nothing before it.
 constexpr float kReached = 0.9999f;
 
+}  // namespace
+
 // One object as rays are aimed at it.
-struct Target {
+struct SeenTarget {
   const SceneObject* object = nullptr;
   const SceneMesh* mesh = nullptr;
   std::vector<double> areas;  // up to each triangle and with it; model units
@@ -28,8 +30,10 @@ struct Target {
   bool is_lucid = false;                             // hides nothing
 };
 
-Target make_target(const Scene& scene, const SceneObject& object) {
-  Target out;
+namespace {
+
+SeenTarget make_target(const Scene& scene, const SceneObject& object) {
+  SeenTarget out;
   out.object = &object, out.mesh = &scene.mesh_of(object);
   out.shows_backs = scene.is_double_sided(object), out.is_lucid = scene.is_masked(object);
   out.hides_by_backs = std::all_of(object.materials.begin(), object.materials.end(), [&](int m) {
@@ -48,7 +52,7 @@ struct Aim {
   glm::dvec3 normal{0};  // of any length
 };
 
-Aim choose_point(const Target& target, Random& random) {
+Aim choose_point(const SeenTarget& target, Random& random) {
   const auto found = std::upper_bound(target.areas.begin(), target.areas.end(),
                                       random.uniform(0, target.areas.back()));
   const auto t =
@@ -94,8 +98,8 @@ glm::vec3 direction_around(int i, int n, double turn) {
 struct SeenFinder::State {
   const CellSet& cells;
   SeenOptions options;
-  std::vector<Target> targets;  // by object
-  RayScene all;                 // of what hides
+  std::vector<SeenTarget> targets;  // by object
+  RayScene all;                     // of what hides
   std::vector<std::uint32_t> object_of_instance;
 
   State(const Scene& scene, const CellSet& cells_in, const SeenOptions& options_in, int n_threads)
@@ -105,7 +109,7 @@ struct SeenFinder::State {
     std::vector<RayScene::Instance> instances;
     for (const SceneObject& object : scene.objects) {
       targets.push_back(make_target(scene, object));
-      const Target& target = targets.back();
+      const SeenTarget& target = targets.back();
       if (target.is_lucid) continue;
       RayScene& mesh = meshes[{object.mesh, target.hides_by_backs}];
       if (!mesh)
@@ -117,7 +121,7 @@ struct SeenFinder::State {
     all = RayScene(device, instances);
   }
 
-  int rays_for(const Target& target, const glm::dvec3& eye) const {
+  int rays_for(const SeenTarget& target, const glm::dvec3& eye) const {
     const double distance = std::max(glm::distance(target.middle, eye) - cells.grid.size,
                                      std::max(target.radius, 1e-9));
     const double focal_px = 0.5 * options.resolution_px / std::tan(kPi / 6);
@@ -152,7 +156,7 @@ class CellSight {
   }
 
   // A packet of rays from the eye at points of the object.
-  void aim(const Target& target, std::size_t object, const glm::dvec3& eye, Random& random) {
+  void aim(const SeenTarget& target, std::size_t object, const glm::dvec3& eye, Random& random) {
     RayPacket packet;
     packet.start(glm::vec3(eye), 0);
     std::array<bool, RayPacket::kSize> shows;  // the side that is drawn
@@ -206,7 +210,7 @@ SeenFromCell SeenFinder::find(CellId cell) const {
   SeenFromCell out;
   const glm::dvec3 middle = eye_of(s.cells, cell);
   for (std::size_t o = 0; o < s.targets.size(); ++o) {
-    const Target& target = s.targets[o];
+    const SeenTarget& target = s.targets[o];
     const int n_rays = s.rays_for(target, middle);
     for (int n = 0; n < n_rays && !sight.is_seen(o); n += RayPacket::kSize)
       sight.aim(target, o, eyes[(static_cast<std::size_t>(n / RayPacket::kSize) + o) % eyes.size()],

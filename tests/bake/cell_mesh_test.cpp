@@ -52,7 +52,7 @@ void for_each_outside(const Visit& visit) {
     for (std::size_t o = 0; o < small.scene.objects.size(); ++o) {
       const Representation kind =
           choose_representation(small.bake, cell, ObjectId(o), small.options).kind;
-      if (kind != Representation::inside) visit(cell, ObjectId(o), kind);
+      if (kind != Representation::original) visit(cell, ObjectId(o), kind);
     }
 }
 
@@ -234,7 +234,7 @@ TEST(Representation, InsideNearAndFar) {
   for (const CellId cell : small.list)
     for (std::size_t o = 0; o < small.scene.objects.size(); ++o) {
       const auto kind = choose_representation(small.bake, cell, ObjectId(o), small.options).kind;
-      EXPECT_EQ(kind == Representation::inside, is_inside(small.cells, cell, ObjectId(o)));
+      EXPECT_EQ(kind == Representation::original, is_inside(small.cells, cell, ObjectId(o)));
       if (o % 2 != 0) continue;  // of the balls, all alike
       const double d = glm::distance(eye_of(small.cells, cell), small.scene.objects[o].translation);
       if (kind == Representation::multi_view) farthest_multi = std::max(farthest_multi, d);

@@ -123,6 +123,10 @@ CellSet make_tested_cells() {
   for (std::uint32_t o = 0; o < 3; ++o)
     if (!is_inside(cells, CellId(2), ObjectId(o))) cells.unseen[2].push_back(ObjectId(o));
   cells.seen_by = {{"method", "rays"}};
+  cells.own.resize(n);
+  for (std::uint32_t o = 0; o < 3; ++o)
+    if (!is_inside(cells, CellId(5), ObjectId(o))) cells.own[5].push_back(ObjectId(o));
+  cells.own[2] = cells.unseen[2];
   return cells;
 }
 
@@ -134,6 +138,14 @@ TEST(CellsFile, KeepsWhatCellsSee) {
   EXPECT_EQ(back.is_tested, cells.is_tested);
   EXPECT_EQ(back.unseen, cells.unseen);
   EXPECT_EQ(back.seen_by, cells.seen_by);
+  EXPECT_EQ(back.own, cells.own);
+  // Drawn as it is: what is inside, and what is its own unless it is unseen.
+  EXPECT_EQ(originals_of(back, CellId(2)), back.inside[2]);
+  EXPECT_EQ(originals_of(back, CellId(5)).size(), 3u);
+  for (std::uint32_t o = 0; o < 3; ++o) {
+    EXPECT_EQ(is_original(back, CellId(2), ObjectId(o)), is_inside(back, CellId(2), ObjectId(o)));
+    EXPECT_TRUE(is_original(back, CellId(5), ObjectId(o)));
+  }
   EXPECT_TRUE(is_unseen(back, CellId(2), cells.unseen[2][0]));
   EXPECT_FALSE(is_unseen(back, CellId(5), cells.unseen[2][0]));
   EXPECT_FALSE(is_unseen(make_some_cells(), CellId(2), ObjectId(0)));
@@ -150,6 +162,9 @@ TEST(CellsFile, UnseenObjectsAreOutside) {
   auto& cell = *std::find_if(bad["cells"].begin(), bad["cells"].end(), is_full);
   cell["unseen"] = {cell["inside"][0]};
   EXPECT_INPUT_ERROR(read_cells(folder.add("cells.json", format_json(bad))), "is inside the cell");
+  cell.erase("unseen");
+  cell["own"] = {cell["inside"][0]};
+  EXPECT_INPUT_ERROR(read_cells(folder.add("cells.json", format_json(bad))), "own[0]: is inside");
 }
 
 TEST(CellsFile, OfAnotherSceneIsRefused) {
@@ -172,7 +187,6 @@ TEST(CellsFile, MalformedIsRefusedWithItsPlace) {
   };
   expect("format", [](Json& j) { j["format"] = "viewcell-scene"; });
   expect("version", [](Json& j) { j["version"] = 3; });
-  expect("seen_by", [](Json& j) { j["version"] = 2; });
   for (const char* key : {"scene_hash", "objects", "size", "origin", "columns", "rows",
                           "eye_height", "near", "cells"}) {
     expect(key, [&](Json& j) { j.erase(key); });

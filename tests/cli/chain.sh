@@ -15,12 +15,12 @@ for tool in parkgen hexcells depthcap svmesh mvmesh cellpack psnr play; do
   expect 0 "$bin/$tool" --version
   grep -q "^$tool (viewcell) " "$log/out" || fail "$tool --version"
 done
-expect 0 "$bin/hexcells" park/scene.json --size 50 --eye-height 6:10 -o - -q
+expect 0 "$bin/hexcells" park/scene.json --size 50 --eye-height 6:10 --choose paper -o - -q
 [ ! -s "$log/err" ] || fail "words in spite of -q"
 cmp -s "$log/out" cells.json || fail "-o - is not what -o cells.json is"
 mkfifo pipe
 cat pipe >piped &
-expect 0 "$bin/hexcells" park/scene.json --size 50 --eye-height 6:10 -o pipe
+expect 0 "$bin/hexcells" park/scene.json --size 50 --eye-height 6:10 --choose paper -o pipe
 wait
 cmp -s piped cells.json && [ -p pipe ] || fail "a pipe as -o"
 expect 0 "$bin/hexcells" park/scene.json --size 50 -o x.json --svg map.svg --path park/path.json --json -

@@ -149,7 +149,7 @@ JSON
 # bake BUNDLE: the whole chain in the caller's folder: park, cells.json, captures, sv, mv, BUNDLE.
 bake() {
   make_park park
-  expect 0 "$bin/hexcells" park/scene.json --size 50 --eye-height 6:10 -o cells.json
+  expect 0 "$bin/hexcells" park/scene.json --size 50 --eye-height 6:10 --choose paper -o cells.json
   expect 0 "$bin/depthcap" park/scene.json cells.json --resolution 128 -o captures
   expect 0 "$bin/svmesh" park/scene.json cells.json captures -o sv
   expect 0 "$bin/mvmesh" park/scene.json cells.json captures -o mv

@@ -68,7 +68,12 @@ cat >path.json <<'X'
  {"time_s": 0, "eye": [-30, -30, 10], "forward": [1, 0, 0]},
  {"time_s": 1, "eye": [-20, -20, 10], "forward": [0, 1, 0]}]}
 X
-expect 0 "$bin/hexcells" yard/scene.json --size 50 -o cells.json
+expect 0 "$bin/hexcells" yard/scene.json --size 50 -o cells.json --json cells_report.json
+says cells_report.json ".own_mean > 3 and .inside_mean > 0"
+says cells.json ".version == 2 and ([.cells[].own // [] | length] | add) > 100"
+expect 0 "$bin/hexcells" yard/scene.json --size 50 --choose paper -o - -q
+says "$log/out" ".version == 1"
+fault 2 "--choose" "$bin/hexcells" yard/scene.json --choose best -o x
 # A walk over the yard, around what stands there; to a place, and not to one.
 expect 0 "$bin/walkpath" yard/scene.json cells.json --seconds 6 -o walk.json --json walk_report.json
 says walk_report.json '.seconds == 6 and .room_share > 0.8 and .room_share < 1'
@@ -108,5 +113,5 @@ fault 1 "pieces" "$bin/sceneimport" yard.obj --unit 10000 -o x
 fault 1 "no area" "$bin/sceneimport" flat.obj -o x
 mv checker.png away.png
 fault 1 "checker.png" "$bin/sceneimport" yard.obj -o x
-[ "$n_faults" -eq 11 ] || fail "$n_faults faults were tried"
+[ "$n_faults" -eq 12 ] || fail "$n_faults faults were tried"
 echo "sceneimport.sh: all well"

@@ -74,6 +74,22 @@ TEST(Materials, RaysAndRasteriserAgree) {
   }
 }
 
+// By clusters and a call for each material: the same pixels, in fewer calls.
+TEST(Materials, BatchesDrawTheSamePixels) {
+  Engines all(make_material_scene());
+  std::vector<ObjectId> objects;
+  for (std::size_t o = 0; o < all.scene.objects.size(); ++o) objects.push_back(ObjectId(o));
+  for (int i = 0; i < 6; ++i) {
+    const Camera camera = camera_at(0.9 * i, i % 2 == 0 ? 24 : 6, 3 + 2 * i);
+    const GlFramebuffer target(shared_context().gl(), kSize, kSize);
+    all.renderer.draw_background(target, clip_from_world(camera));
+    const SceneRenderer::Drawn drawn = all.renderer.draw_clusters(camera, objects);
+    EXPECT_EQ(target.read_rgba8().pixels, all.raster(camera).pixels) << i;
+    EXPECT_GT(drawn.n_triangles, 0u);
+    EXPECT_LE(drawn.n_calls, all.scene.materials.size());
+  }
+}
+
 // Each kind by itself, so that the one at fault has a name.
 TEST(Materials, RaysAndRasteriserAgreeOnEach) {
   const Scene scene = make_material_scene();

@@ -237,7 +237,7 @@ TEST(PlanHybrid, NoObjectWithAVertexInTheFrameIsCulled) {
           glm::dvec3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-0.4, 0.4)));
       const HybridPlan plan = plan_hybrid(planned.plan_scene, cells, ready, views, camera);
       std::set<std::size_t> slots;
-      std::set<ObjectId> inside(plan.inside.begin(), plan.inside.end());
+      std::set<ObjectId> inside(plan.originals.begin(), plan.originals.end());
       std::size_t n_triangles = 0;
       double last = 0;
       for (const HybridDraw& draw : plan.outside) {
@@ -252,7 +252,7 @@ TEST(PlanHybrid, NoObjectWithAVertexInTheFrameIsCulled) {
         }
       }
       EXPECT_EQ(plan.n_triangles, n_triangles);
-      EXPECT_EQ(inside.size(), plan.inside.size());
+      EXPECT_EQ(inside.size(), plan.originals.size());
       for (std::size_t slot = 0; slot < ready.objects.size(); ++slot) {
         bool seen = false;
         const ReadyObject& o = ready.objects[slot];

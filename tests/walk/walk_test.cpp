@@ -113,7 +113,7 @@ TEST(Walk, StaysWhereThereIsMuchToSee) {
   EXPECT_GT(rooms.room.sight_at(*rooms.room.nearest({270, 370})), 0.2f);
   EXPECT_EQ(rooms.room.sight_at(*rooms.room.nearest({1500, 100})), 0.0f);
   for (const double seconds : {0.0, 15.0}) {
-    const Walk walk = make_walk(rooms.room, {.seconds = seconds}, "scene.json");
+    const Walk walk = make_walk(rooms.room, {.through = {}, .seconds = seconds}, "scene.json");
     EXPECT_GT(walk.length, 200);
     for (const PathSample& sample : walk.path.samples)
       EXPECT_LT(glm::distance(glm::dvec2(sample.eye), {330, 390}), 350) << seconds;

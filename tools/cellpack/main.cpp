@@ -44,15 +44,16 @@ int run(Tool& tool, const Options& options) {
       make_provenance(tool, {{"textures", options.texture_format}}, {{"scene", scene.hash}});
   const PackCounts c = pack_bundle(scene, cells, options.inputs, list, format, made_by,
                                    tool.common().output, n_threads, tool.progress("files"));
-  const double per_cell = static_cast<double>(c.n_triangles_inside + c.n_triangles_outside) /
+  const double per_cell = static_cast<double>(c.n_triangles_originals + c.n_triangles_outside) /
                           static_cast<double>(c.n_cells);
   tool.report({{"cells", c.n_cells},
                {"centres", c.n_centres},
                {"single_view", c.n_single_view},
                {"multi_view", c.n_multi_view},
                {"inside", c.n_inside},
+               {"own", c.n_own},
                {"unseen", c.n_unseen},
-               {"triangles_inside", c.n_triangles_inside},
+               {"triangles_originals", c.n_triangles_originals},
                {"triangles_outside", c.n_triangles_outside},
                {"triangles_per_cell_mean", per_cell},
                {"simplified_to_original", count_triangles(scene) / per_cell},

@@ -5,6 +5,7 @@
 #include "base/file.h"
 #include "cells/map.h"
 #include "cells/odd_sizes.h"
+#include "cells/own_materials.h"
 #include "common/provenance.h"
 #include "common/scene_inputs.h"
 #include "common/tool.h"
@@ -18,6 +19,7 @@ struct Options {
   std::string eye_height = "16:20";
   std::string svg_file;
   std::string path_file;
+  std::string choose = "cost";
 };
 
 EyeHeight parse_eye_height(const std::string& text) {
@@ -38,6 +40,11 @@ void declare(Tool& tool, Options& options) {
       .check(within(1e-3, 1e6));
   tool.add_option("--eye-height", &options.eye_height, "range of the eye's heights, LO:HI")
       .show_default();
+  tool.add_option("--choose", &options.choose,
+                  "cost: objects outside are drawn as they are, too, where captures would cost "
+                  "more or be too coarse; paper: never")
+      .show_default()
+      .check(one_of({"cost", "paper"}));
   tool.add_option("--svg", &options.svg_file, "draw a map of cells and objects").writes();
   tool.add_option("--path", &options.path_file, "path.json to draw into the map")
       .reads("the path that is read");
@@ -50,9 +57,12 @@ int run(Tool& tool, const Options& options) {
   const Scene scene = read_scene(
       options.scene_file, {.n_threads = tool.common().n_threads, .limits = mesh_limits(tool)});
   register_scene_files(tool, scene, options.scene_file);
-  const CellSet cells = make_cells(scene, options.size, eye_height);
+  CellSet cells = make_cells(scene, options.size, eye_height);
+  if (options.choose == "cost") cells.own = find_own_materials(scene, cells);
   const Json made_by = make_provenance(
-      tool, {{"size", options.size}, {"eye_height", options.eye_height}}, {{"scene", scene.hash}});
+      tool,
+      {{"size", options.size}, {"eye_height", options.eye_height}, {"choose", options.choose}},
+      {{"scene", scene.hash}});
   if (!options.svg_file.empty()) {
     CameraPath path;
     Remarks remarks;
@@ -66,13 +76,16 @@ int run(Tool& tool, const Options& options) {
   for (const std::string& hint : hints) tool.say(hint);
   std::size_t n_inside = 0;
   for (const auto& inside : cells.inside) n_inside += inside.size();
+  std::size_t n_own = 0;
+  for (const auto& own : cells.own) n_own += own.size();
   tool.report({{"columns", cells.grid.columns},
                {"rows", cells.grid.rows},
                {"cells", cells.grid.n_cells()},
                {"size", cells.grid.size},
                {"objects", scene.objects.size()},
                {"hints", hints},
-               {"inside_mean", static_cast<double>(n_inside) / cells.grid.n_cells()}});
+               {"inside_mean", static_cast<double>(n_inside) / cells.grid.n_cells()},
+               {"own_mean", static_cast<double>(n_own) / cells.grid.n_cells()}});
   tool.say(std::to_string(cells.grid.columns) + " x " + std::to_string(cells.grid.rows) +
            " cells over " + std::to_string(scene.objects.size()) + " objects");
   return 0;
