@@ -14,8 +14,8 @@ struct PackInputs {
 
 struct PackCounts {
   std::size_t n_cells = 0, n_centres = 0;
-  std::size_t n_single_view = 0, n_multi_view = 0, n_unseen = 0;  ///< object-cell pairs, as are
-  std::size_t n_inside = 0, n_own = 0;                            ///< those drawn as they are
+  std::size_t n_single_view = 0, n_multi_view = 0, n_unseen = 0;   ///< object-cell pairs, as are
+  std::size_t n_inside = 0, n_own = 0;                             ///< those drawn as they are
   std::size_t n_triangles_originals = 0, n_triangles_outside = 0;  ///< over all cells
   std::size_t texel_bytes = 0;
 };
