@@ -16,6 +16,7 @@ namespace viewcell {
 
 struct PlayerOptions {
   int width_px = 1024, height_px = 1024;
+  double fov_y_deg = 0;  ///< of the frames; 0: the path's
   GlEngine engine = GlEngine::kOsmesa;
   int n_threads = 0;
   ResidencyOptions residency;

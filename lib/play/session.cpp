@@ -209,7 +209,11 @@ Timeline start_timeline(const Player& player, const Bundle& bundle, const Camera
 
 Session run_session(Player& player, const Bundle& bundle, const CameraPath& path,
                     const SessionOptions& options, const Progress& progress) {
-  const std::vector<Camera> cameras = sample_path(path, options.n_frames);
+  const PlayerOptions& frame = player.options();
+  std::vector<Camera> cameras = sample_path(path, options.n_frames);
+  for (Camera& camera : cameras)
+    camera = with_frame(camera, frame.fov_y_deg > 0 ? frame.fov_y_deg : path.fov_y_deg,
+                        static_cast<double>(frame.width_px) / frame.height_px);
   check_path_meets_bundle(bundle, cameras, options);
   Session session;
   session.timeline = start_timeline(player, bundle, path, cameras, options);

@@ -58,6 +58,16 @@ glm::dmat4 clip_from_view(const Camera& camera) {
   return clip;
 }
 
+Camera with_frame(Camera camera, double fov_y_deg, double aspect) {
+  const auto corner = [](double fov_deg, double shape) {
+    const double half = std::tan(glm::radians(fov_deg) / 2);
+    return std::sqrt(1 + half * half * (1 + shape * shape));
+  };
+  camera.fov_y_deg = fov_y_deg, camera.aspect = aspect;
+  camera.near *= std::min(1.0, corner(kFovYDeg, 1) / corner(fov_y_deg, aspect));
+  return camera;
+}
+
 bool is_view_frame(const glm::dvec3& right, const glm::dvec3& up, const glm::dvec3& forward) {
   constexpr double kRounding = 1e-6;
   const auto is_unit = [](const glm::dvec3& v) {
@@ -73,14 +83,12 @@ CameraPath read_path(const std::filesystem::path& file, Remarks* remarks) {
   const Json json = read_json(file, kPathFormat, 1);
   const JsonCursor root(json, file);
   remark_unknown_keys(root, "the path", kKeys, remarks);
-  if (root.has("fov_y_deg") && root.at("fov_y_deg").number() != kFovYDeg)
-    root.at("fov_y_deg")
-        .fail("is not " + std::to_string(static_cast<int>(kFovYDeg)) +
-              ", the angle of every frame");
   const JsonCursor samples = root.at("samples");
   const std::size_t n = samples.size();
   if (n == 0) samples.fail("is empty");
   CameraPath path;
+  if (root.has("fov_y_deg"))
+    path.fov_y_deg = root.at("fov_y_deg").number(kLeastFovYDeg, kMostFovYDeg);
   for (std::size_t i = 0; i < n; ++i) {
     path.samples.push_back(read_sample(samples.at(i), remarks));
     if (i > 0 && !(path.samples[i].time_s > path.samples[i - 1].time_s))
@@ -98,7 +106,7 @@ Json format_path(const CameraPath& path, const Json& provenance) {
   return {{"format", kPathFormat},
           {"version", 1},
           {"made_by", provenance},
-          {"fov_y_deg", kFovYDeg},
+          {"fov_y_deg", path.fov_y_deg},
           {"samples", samples}};
 }
 
@@ -115,6 +123,7 @@ std::vector<Camera> sample_path(const CameraPath& path, std::size_t n) {
     const PathSample& b = path.samples[std::min(at + 1, path.samples.size() - 1)];
     const double span = b.time_s - a.time_s;
     const double t = span > 0 ? std::clamp((time_s - a.time_s) / span, 0.0, 1.0) : 0;
+    cameras[i].fov_y_deg = path.fov_y_deg;
     cameras[i].eye = glm::mix(a.eye, b.eye, t);
     cameras[i].forward = interpolate_direction(a.forward, b.forward, t);
   }

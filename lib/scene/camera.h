@@ -9,8 +9,9 @@
 
 namespace viewcell {
 
-/// The vertical field of view of every frame, in a square frame [Chen06 5.3].
-inline constexpr double kFovYDeg = 60;
+/// The vertical field of view of frames, where nothing else is said, and what others may be. The
+/// paper's are square [Chen06 5.3].
+inline constexpr double kFovYDeg = 60, kLeastFovYDeg = 5, kMostFovYDeg = 120;
 /// Distance of the near plane, in the park's units.
 inline constexpr double kNear = 1;
 
@@ -22,6 +23,10 @@ struct Camera {
   double aspect = 1;  ///< width / height
   double near = kNear;
 };
+
+/// Its frames with that field of view and shape. The near plane comes so near that its corner is no
+/// farther from the eye than in a square frame of kFovYDeg, for which cells were widened.
+Camera with_frame(Camera camera, double fov_y_deg, double aspect);
 
 /// What is right and up in a picture taken along forward, which is unit and not vertical: right is
 /// level, up is nearest to z.
@@ -55,6 +60,7 @@ struct PathSample {
 /// Samples in order of time; the camera moves linearly between them.
 struct CameraPath {
   std::vector<PathSample> samples;
+  double fov_y_deg = kFovYDeg;
 };
 
 /// remarks: what was passed over, if wanted.

@@ -51,8 +51,8 @@ std::size_t count_alpha(const ImageRgba8& image, int alpha) {
 // way round.
 int count_uncovered(const ImageRgba8& a, const ImageRgba8& b) {
   int n = 0;
-  for (int y = 2; y < kSize - 2; ++y)
-    for (int x = 2; x < kSize - 2; ++x) {
+  for (int y = 2; y < a.height_px - 2; ++y)
+    for (int x = 2; x < a.width_px - 2; ++x) {
       if (a.at(x, y)[3] == 0) continue;
       bool covered = false;
       for (int j = -2; j <= 2; ++j)
@@ -90,6 +90,34 @@ TEST(HybridFrame, LooksLikeTheOriginals) {
   EXPECT_GT(n_differ, 12);
   EXPECT_GT(mean_db / n_differ, 31);
   EXPECT_LT(n_lit, 0.02 * static_cast<double>(n_textured));
+}
+
+// In wide frames nothing is missing at the sides.
+TEST(HybridFrame, WideFramesLackNothing) {
+  const Bundle bundle(shared_bundle());
+  PlayerOptions options = Stage::make_options();
+  options.width_px = 2 * kSize;
+  Player player(bundle, options);
+  Random random(40);
+  const CellSet& cells = bundle.cells();
+  int n_seen = 0;
+  for (int k = 0; k < 12; ++k) {
+    Camera camera;
+    camera.eye = {random.uniform(0, 120), random.uniform(0, 120), 18};
+    const double angle = random.uniform(0, 6.28);
+    camera.forward = {std::cos(angle), std::sin(angle), 0};
+    if (!cell_at(cells.grid, coord_at(cells.grid, glm::dvec2(camera.eye)))) continue;
+    camera = with_frame(camera, 75, 2);
+    player.draw(Mode::frustum, camera);
+    const ImageRgba8 original = player.read(Mode::frustum);
+    player.draw(Mode::hybrid, camera);
+    const ImageRgba8 hybrid = player.read(Mode::hybrid);
+    EXPECT_EQ(original.width_px, 2 * kSize);
+    EXPECT_EQ(count_uncovered(original, hybrid), 0) << k;
+    EXPECT_EQ(count_uncovered(hybrid, original), 0) << k;
+    n_seen += count_alpha(original, 255) > 200;
+  }
+  EXPECT_GT(n_seen, 6);
 }
 
 // Through a fence of leaves one sees what stands behind it, from both sides and from anywhere in

@@ -43,6 +43,20 @@ TEST(Camera, ClipSpaceIsReversedAndInfinite) {
   EXPECT_NEAR(edge.y / edge.w, 1, 1e-12);
 }
 
+// The near plane's corner is never farther than in a square frame of 60 degrees.
+TEST(Camera, NearPlaneFollowsTheFrame) {
+  const Camera camera;
+  EXPECT_EQ(with_frame(camera, 60, 1).near, kNear);
+  EXPECT_EQ(with_frame(camera, 40, 1).near, kNear);
+  for (const auto& [fov, aspect] : {std::pair(60.0, 16.0 / 9), {75.0, 16.0 / 9}, {120.0, 1.0}}) {
+    const Camera wide = with_frame(camera, fov, aspect);
+    const double half = std::tan(glm::radians(fov) / 2);
+    EXPECT_NEAR(wide.near * std::hypot(1, half, half * aspect), std::sqrt(1 + 2.0 / 3), 1e-12);
+    EXPECT_EQ(wide.fov_y_deg, fov);
+    EXPECT_EQ(wide.aspect, aspect);
+  }
+}
+
 TEST(CameraPath, SamplesAtEqualTimesWithBothEnds) {
   const auto cameras = sample_path(make_bent_path(), 7);  // every half second
   ASSERT_EQ(cameras.size(), 7u);
@@ -68,8 +82,10 @@ TEST(CameraPath, ReadsWhatItFormats) {
                             {random.uniform(-1e3, 1e3), random.uniform(), random.uniform()},
                             glm::normalize(glm::dvec3(std::cos(angle), std::sin(angle), 0.3))});
   }
+  path.fov_y_deg = 72.5;
   const auto file = folder.add("path.json", format_json(format_path(path, {{"tool", "test"}})));
   const CameraPath read = read_path(file);
+  EXPECT_EQ(read.fov_y_deg, 72.5);
   ASSERT_EQ(read.samples.size(), path.samples.size());
   for (std::size_t i = 0; i < path.samples.size(); ++i) {
     EXPECT_EQ(read.samples[i].time_s, path.samples[i].time_s);
@@ -93,7 +109,7 @@ TEST(CameraPath, BadPathsAreRefused) {
   refuse([](Json& j) { j["samples"][0]["forward"] = {0, 0, 0}; }, "has no length");
   refuse([](Json& j) { j["samples"][0]["forward"] = {0, 0, -1}; }, "is vertical");
   refuse([](Json& j) { j["samples"][0].erase("eye"); }, "has no \"eye\"");
-  refuse([](Json& j) { j["fov_y_deg"] = 45; }, "fov_y_deg: is not 60");
+  refuse([](Json& j) { j["fov_y_deg"] = 145; }, "fov_y_deg: 145 is not within 5 to 120");
 }
 
 TEST(CameraPath, UnknownKeysAreSaid) {

@@ -33,8 +33,7 @@ PlayerOptions make_player_options(const Tool& tool, const PlayArguments& o) {
       std::min(player.width_px, player.height_px) < 16 ||
       std::max(player.width_px, player.height_px) > 8192)
     throw UsageError("--size: '" + o.size + "' is not WIDTHxHEIGHT within 16 to 8192");
-  if (player.width_px != player.height_px)
-    throw UsageError("--size: frames are square (" + o.size + ")");
+  player.fov_y_deg = o.fov_y_deg;
   player.engine = parse_gl_engine(o.gl);
   player.n_threads = tool.common().n_threads;
   player.residency.pool_texels = static_cast<std::uint32_t>(o.texture_mb) << 18;
@@ -65,8 +64,11 @@ void declare_arguments(Tool& tool, PlayArguments& o) {
                   "frames of one mode before the next has its turn")
       .show_default()
       .check(in_range(1, 100000));
-  tool.add_option("--size", &o.size, "WIDTHxHEIGHT in px, both the same: frames are square")
-      .show_default();
+  tool.add_option("--size", &o.size, "WIDTHxHEIGHT in px").show_default();
+  tool.add_option("--fov", &o.fov_y_deg,
+                  "vertical field of view in degrees (default: the path's, which is 60 where it "
+                  "says nothing)")
+      .check(within(kLeastFovYDeg, kMostFovYDeg));
   tool.add_option("--save", &o.session.save, "folder to write frames to, as PNG")
       .writes({"*/frame-*.png"});
   tool.add_flag("--save-alpha", &o.session.save_alpha,

@@ -12,6 +12,7 @@ struct PlayArguments {
   std::string bundle, path_file, modes = "frustum,hybrid", reference = "frustum";
   std::string size = "1024x1024", gl = "osmesa";
   std::string stats_file, plots_folder, sheet_file, table_file;
+  double fov_y_deg = 0;
   int texture_mb = 256;
   bool no_quality = false, no_prefetch = false;
   SessionOptions session;
