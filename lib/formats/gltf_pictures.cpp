@@ -9,8 +9,10 @@ namespace {
 
 class GltfPictureReader {
  public:
-  GltfPictureReader(std::string_view bytes, const std::filesystem::path& file)
-      : gltf_(parse_gltf_file(bytes, file)), names_(name_materials(gltf_.root())) {}
+  GltfPictureReader(std::string_view bytes, const std::filesystem::path& file, PictureFaults faults)
+      : gltf_(parse_gltf_file(bytes, file)),
+        names_(name_materials(gltf_.root())),
+        faults_(faults) {}
 
   MaterialPictures read() {
     for (const std::int64_t id : used_materials(gltf_.root())) {
@@ -83,23 +85,26 @@ class GltfPictureReader {
     }
     sampler = sampler_of(gltf_.root(), use->texture);
     const std::int64_t image = image_of_texture(gltf_.root(), use->texture);
-    const auto [found, is_new] = ids_.try_emplace(image, static_cast<int>(out_.pictures.size()));
-    if (is_new)
+    if (const auto found = ids_.find(image); found != ids_.end()) return found->second;
+    return or_left_out(faults_, out_.remarks, [&] {
       out_.pictures.push_back({read_image_bytes(gltf_, image),
                                gltf_.file.string() + ": images[" + std::to_string(image) + "]"});
-    return found->second;
+      return ids_[image] = static_cast<int>(out_.pictures.size()) - 1;
+    });
   }
 
   GltfFile gltf_;
   std::vector<std::string> names_;
+  PictureFaults faults_;
   std::map<std::int64_t, int> ids_;
   MaterialPictures out_;
 };
 
 }  // namespace
 
-MaterialPictures read_gltf_pictures(std::string_view bytes, const std::filesystem::path& file) {
-  return GltfPictureReader(bytes, file).read();
+MaterialPictures read_gltf_pictures(std::string_view bytes, const std::filesystem::path& file,
+                                    PictureFaults faults) {
+  return GltfPictureReader(bytes, file, faults).read();
 }
 
 }  // namespace viewcell

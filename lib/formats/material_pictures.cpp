@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <set>
 
+#include "base/error.h"
 #include "base/file.h"
 #include "formats/model_pictures.h"
 
@@ -28,15 +29,25 @@ std::size_t count_colors(const MaterialPictures& model) {
   return colors.size();
 }
 
+int or_left_out(PictureFaults faults, Remarks& remarks, const std::function<int()>& picture) {
+  if (faults == PictureFaults::refuse) return picture();
+  try {
+    return picture();
+  } catch (const InputError& error) {
+    add_remark(&remarks, std::string(error.what()) + ": left out");
+    return -1;
+  }
+}
+
 bool has_material_pictures(const std::filesystem::path& file) {
   const std::string ending = lower_ending_of(file);
   return ending == ".glb" || ending == ".gltf" || ending == ".obj";
 }
 
-MaterialPictures read_material_pictures(const std::filesystem::path& file) {
+MaterialPictures read_material_pictures(const std::filesystem::path& file, PictureFaults faults) {
   const std::string bytes = read_file(file);
-  MaterialPictures out = lower_ending_of(file) == ".obj" ? read_obj_pictures(bytes, file)
-                                                         : read_gltf_pictures(bytes, file);
+  MaterialPictures out = lower_ending_of(file) == ".obj" ? read_obj_pictures(bytes, file, faults)
+                                                         : read_gltf_pictures(bytes, file, faults);
   out.hash = hash_hex(bytes);
   return out;
 }

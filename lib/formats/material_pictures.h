@@ -41,10 +41,17 @@ std::size_t count_colors(const MaterialPictures& model);
 /// then say which (map_Kd).
 bool has_material_pictures(const std::filesystem::path& file);
 
+/// What becomes of a picture that is missing or refused.
+enum class PictureFaults {
+  refuse,    ///< an error
+  leave_out  ///< the material has none, which is a remark that names it; so with an OBJ's libraries
+};
+
 /// Files that a model names lie in its folder. Metal and roughness are those of the material where
 /// no texture of theirs is left out, otherwise 0 and 1. Throws InputError for what read_texture
 /// (texture_file.h) refuses, for options of map_Kd that move the picture, and for an OBJ none of
 /// whose libraries is there.
-MaterialPictures read_material_pictures(const std::filesystem::path& file);
+MaterialPictures read_material_pictures(const std::filesystem::path& file,
+                                        PictureFaults faults = PictureFaults::refuse);
 
 }  // namespace viewcell

@@ -22,15 +22,16 @@ bool is_there(const fs::path& file) {
 
 class ObjPictureReader {
  public:
-  explicit ObjPictureReader(const fs::path& file) : file_(file) {}
+  ObjPictureReader(const fs::path& file, PictureFaults faults) : file_(file), faults_(faults) {}
 
   MaterialPictures read(std::string_view bytes) {
     const MtlNames names = find_mtl_names(skip_byte_order_mark(bytes, file_.string()));
-    if (names.libraries.empty())
+    const bool refuses = faults_ == PictureFaults::refuse;
+    if (names.libraries.empty() && refuses)
       throw InputError(file_.string(), "", "names no material library (mtllib), so no pictures");
     used_ = names.used;
     for (const std::string& library : names.libraries) read_libraries(library);
-    if (libraries_.empty())
+    if (libraries_.empty() && refuses)
       throw InputError(file_.string(), "mtllib",
                        "'" + names.libraries[0] + "' is not there, and with it its pictures");
     add_remark(&out_.remarks, "material libraries that are not there", n_absent_);
@@ -68,7 +69,8 @@ class ObjPictureReader {
       if (map.keyword != "map_Kd")
         add_remark(&out_.remarks, "pictures of " + map.keyword + ", left out");
       else
-        m.color = picture(library, map), color = glm::vec3(1);
+        m.color = or_left_out(faults_, out_.remarks, [&] { return picture(library, map); });
+    if (m.color >= 0) color = glm::vec3(1);
     for (int k = 0; k < 3; ++k) color[k] = srgb_decode(std::clamp(color[k], 0.0f, 1.0f));
     m.look.base_color_factor = glm::dvec4(color, from.opacity);
     if (from.opacity < 1) m.look.alpha_mode = "BLEND";
@@ -85,12 +87,13 @@ class ObjPictureReader {
     fs::path file = resolve_inside(library, place, map.file);
     if (const fs::path beside = file_.parent_path() / map.file; !is_there(file) && is_there(beside))
       file = resolve_inside(file_, place, map.file);
-    const auto [found, is_new] = ids_.try_emplace(file, static_cast<int>(out_.pictures.size()));
-    if (is_new) out_.pictures.push_back({read_file(file), file.string()});
-    return found->second;
+    if (const auto found = ids_.find(file); found != ids_.end()) return found->second;
+    out_.pictures.push_back({read_file(file), file.string()});
+    return ids_[file] = static_cast<int>(out_.pictures.size()) - 1;
   }
 
   fs::path file_;
+  PictureFaults faults_;
   std::vector<std::string> used_;
   std::set<fs::path> libraries_;
   std::size_t n_absent_ = 0;
@@ -100,8 +103,9 @@ class ObjPictureReader {
 
 }  // namespace
 
-MaterialPictures read_obj_pictures(std::string_view bytes, const fs::path& file) {
-  return ObjPictureReader(file).read(bytes);
+MaterialPictures read_obj_pictures(std::string_view bytes, const fs::path& file,
+                                   PictureFaults faults) {
+  return ObjPictureReader(file, faults).read(bytes);
 }
 
 }  // namespace viewcell

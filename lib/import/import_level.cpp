@@ -12,7 +12,9 @@
 #include "image/io.h"
 #include "image/jpeg.h"
 #include "image/shrink.h"
+#include "mesh/offset.h"
 #include "mesh/used_vertices.h"
+#include "mesh/weld.h"
 
 namespace viewcell {
 namespace {
@@ -58,8 +60,9 @@ class LevelImporter {
     out_.remarks = source.remarks;
     set_on_floor(mesh, turn_and_scale(mesh, options_));
     add_materials(mesh);
+    out_.piece_m = options_.piece_m > 0 ? options_.piece_m : choose_piece_m(area_m2_of(mesh));
     check_extent(mesh);
-    out_.pieces = cut_into_pieces(mesh, {.size = options_.piece_m * kUnitsPerMetre});
+    out_.pieces = cut_into_pieces(mesh, {.size = out_.piece_m * kUnitsPerMetre});
     add_remark(&out_.remarks, "triangles without area, dropped", out_.pieces.n_dropped);
     add_objects(mesh);
     set_space();
@@ -73,11 +76,17 @@ class LevelImporter {
     for (glm::vec3& p : mesh.positions) p.z -= height;
   }
 
+  static double area_m2_of(const TriMesh& mesh) {
+    double sum = 0;
+    for (const Triangle& t : mesh.triangles) sum += 0.5 * glm::length(area_normal(mesh, t));
+    return sum / (kUnitsPerMetre * kUnitsPerMetre);
+  }
+
   void check_extent(const TriMesh& mesh) const {
     constexpr double kMostPieces = 4096;  // along an axis
     const glm::dvec3 size = surface_box(mesh).size() / kUnitsPerMetre;
     const double longest = std::max({size.x, size.y, size.z});
-    if (longest <= kMostPieces * options_.piece_m) return;
+    if (longest <= kMostPieces * out_.piece_m) return;
     throw InputError(file_.string(), "",
                      "is " + format_g(longest) + " m long, more than " + format_g(kMostPieces) +
                          " pieces: say what its unit is, or larger pieces");
@@ -87,16 +96,18 @@ class LevelImporter {
   void add_materials(const TriMesh& mesh) {
     out_.scene.materials = {Material{.name = "none"}};
     if (!has_material_pictures(file_)) return;
-    const MaterialPictures model = read_material_pictures(file_);
+    const MaterialPictures model = read_material_pictures(file_, PictureFaults::leave_out);
     for (const auto& [what, n] : model.remarks) add_remark(&out_.remarks, what, n);
-    for (const ModelPicture& picture : model.pictures) add_picture(picture);
+    std::vector<std::string> files;  // of the pictures; empty: left out
+    for (const ModelPicture& picture : model.pictures) files.push_back(add_picture(picture));
     for (const PicturedMaterial& m : model.materials) {
       material_of_[m.name] = static_cast<int>(out_.scene.materials.size());
-      out_.scene.materials.push_back(convert(m, mesh));
+      const std::string picture = m.color >= 0 ? files[static_cast<std::size_t>(m.color)] : "";
+      out_.scene.materials.push_back(convert(m, mesh, picture));
     }
   }
 
-  Material convert(const PicturedMaterial& m, const TriMesh& mesh) {
+  Material convert(const PicturedMaterial& m, const TriMesh& mesh, const std::string& picture) {
     Material out;
     out.name = m.name;
     // A glTF's factor is in its vertices' colours already; an OBJ's stand in place of its Kd.
@@ -104,8 +115,8 @@ class LevelImporter {
     out.base_color = out.has_vertex_colors
                          ? glm::vec3(1)
                          : glm::clamp(glm::vec3(m.look.base_color_factor), 0.0f, 1.0f);
-    if (m.color >= 0) {
-      out.base_color_texture = out_.pictures[static_cast<std::size_t>(m.color)].file;
+    if (!picture.empty()) {
+      out.base_color_texture = picture;
       out.wrap_u = wrap_of(m.look.color_sampler.wrap_s);
       out.wrap_v = wrap_of(m.look.color_sampler.wrap_t);
     }
@@ -122,8 +133,18 @@ class LevelImporter {
     return out;
   }
 
+  // The file that it will be; empty, and a remark, where it cannot be read.
+  std::string add_picture(const ModelPicture& picture) {
+    try {
+      return add_readable_picture(picture);
+    } catch (const InputError& error) {
+      add_remark(&out_.remarks, std::string(error.what()) + ": left out");
+      return "";
+    }
+  }
+
   // Bytes stay as they are, but for pictures that are too large.
-  void add_picture(const ModelPicture& picture) {
+  std::string add_readable_picture(const ModelPicture& picture) {
     const std::string number = std::to_string(1000 + out_.pictures.size()).substr(1);
     const ImageFormat format =
         check_image_header(picture.bytes, picture.name, options_.image_limits);
@@ -139,6 +160,7 @@ class LevelImporter {
       add_remark(&out_.remarks, "pictures made smaller");
     }
     out_.pictures.push_back({"textures/" + number + ending, std::move(bytes)});
+    return out_.pictures.back().file;
   }
 
   void add_objects(const TriMesh& level) {
@@ -157,6 +179,9 @@ class LevelImporter {
         object.materials.push_back(place_of(name));
       if (object.materials.empty()) object.materials = {0};
       if (level.colors.empty()) piece.colors.clear();
+      add_remark(&out_.remarks, "vertices moved onto others next to them, so that cracks close",
+                 close_cracks(piece).n_welded);
+      object.translation = bring_near(piece);
       mesh.mesh = std::move(piece);
       out_.scene.objects.push_back(std::move(object));
     }
@@ -167,10 +192,19 @@ class LevelImporter {
     return found == material_of_.end() ? 0 : found->second;
   }
 
+  // A small piece far from the scene's origin is written about a place of its own.
+  static glm::dvec3 bring_near(TriMesh& piece) {
+    change_offset(piece, choose_offset(bounding_box(piece)));
+    const glm::dvec3 place = piece.offset;
+    piece.offset = glm::dvec3(0);
+    return place;
+  }
+
   void set_space() {
     Box box;
-    for (const SceneMesh& mesh : out_.scene.meshes)
-      for (const glm::vec3& p : mesh.mesh.positions) box.add(p);
+    for (const SceneObject& object : out_.scene.objects)
+      for (const glm::vec3& p : out_.scene.mesh_of(object).mesh.positions)
+        box.add(object.world_from_model(glm::dvec3(p)));
     if (out_.scene.meshes.empty())
       throw InputError(file_.string(), "", "has no triangle with an area");
     out_.box_m = {box.lo / kUnitsPerMetre, box.hi / kUnitsPerMetre};
@@ -185,6 +219,11 @@ class LevelImporter {
 };
 
 }  // namespace
+
+double choose_piece_m(double area_m2) {
+  constexpr double kLeast_m = 8, kPieces = 1000;
+  return std::max(kLeast_m, std::sqrt(area_m2 / kPieces));
+}
 
 double find_floor(const TriMesh& mesh, double unit_m) {
   constexpr double kStep_m = 0.05, kLeastCosine = 0.9;

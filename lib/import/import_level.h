@@ -22,7 +22,7 @@ inline constexpr double kUnitsPerMetre = kEyeHeight / kEyeHeight_m;
 struct ImportOptions {
   double unit_m = 1;          ///< what the file's 1 is, in metres
   std::string up = "y";       ///< of is_up_axis()
-  double piece_m = 8;         ///< side of a piece
+  double piece_m = 0;         ///< side of a piece; 0: choose_piece_m() of the level
   int max_texture_px = 2048;  ///< larger pictures are made smaller
   /// Height in the file that people stand at, in metres; none: find_floor().
   std::optional<double> floor_m;
@@ -40,6 +40,7 @@ struct ImportedLevel {
   std::vector<ImportedPicture> pictures;
   LevelPieces pieces;  ///< counts; the meshes are the scene's
   Box box_m;           ///< of the level, in metres, z up, as the scene has it
+  double piece_m = 0;  ///< side of a piece
   double floor_m = 0;  ///< where the file has what is z = 0 now
   std::string hash;    ///< of the level's file
   Remarks remarks;
@@ -49,6 +50,9 @@ struct ImportedLevel {
 /// count as one, and the lowest of several. 0 where nothing faces upwards. unit_m: metres of the
 /// mesh's 1.
 double find_floor(const TriMesh& mesh, double unit_m);
+
+/// 8 m, or as much as makes of the surface some thousand pieces. area_m2: of all triangles.
+double choose_piece_m(double area_m2);
 
 /// The floor comes to z = 0, where the ground is. Throws InputError for a level that has no
 /// triangles with area, or that cannot be read.

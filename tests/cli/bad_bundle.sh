@@ -113,7 +113,7 @@ path_fault 's/\[-1, 0, 0\]/[0, 0, 1]/' 'p/path.json: samples[0].forward'
 path_fault 's/\[-1, 0, 0\]/[0, 0, 0]/' 'p/path.json: samples[0].forward'
 path_fault 's/\[90, 50, 8\]/[90, 50]/' 'p/path.json: samples[0].eye'
 path_fault 's/\[90, 50, 8\]/[90, 50, NaN]/' 'p/path.json: line 2, column'
-path_fault 's/"samples"/"fov_y_deg": 145, "samples"/' 'p/path.json: fov_y_deg: 145 is not within 5 to 120'
+path_fault 's/"samples"/"fov_y_deg": 145, "samples"/' 'p/path.json: fov_y_deg: 145 is not within 5.0 to 120.0'
 echo '{"format": "viewcell-path", "version": 1, "samples": []}' >p/path.json
 fault 1 "p/path.json: samples: is empty" $(play whole p/path.json)
 

@@ -57,6 +57,15 @@ says up.json '(.floor_m - 5 | fabs) < 1e-5'
 expect 0 "$bin/sceneimport" yard_up.obj --piece 10 --floor 4 -o yard_four --json four.json
 says four.json '.floor_m == 4'
 
+# A wide plain: some thousand pieces, far ones about places of their own, which every tool takes.
+awk 'BEGIN{n=60; for(i=0;i<=n;i++)for(j=0;j<=n;j++)printf "v %d %.3f %d\n",20*i,2*sin(i)*cos(j),20*j;
+  for(i=0;i<n;i++)for(j=0;j<n;j++){a=i*(n+1)+j+1;printf "f %d %d %d\nf %d %d %d\n",a,a+1,a+n+2,a,a+n+2,a+n+1}}' >plain.obj
+expect 0 "$bin/sceneimport" plain.obj -o plain --json plain.json
+says plain.json '.piece_m > 30 and .objects > 500 and .objects < 2000 and (.size_m[0] - 1200 | fabs) < 0.01'
+says plain/scene.json '[.objects[].translation[0]] | max - min > 1000'
+expect 0 "$bin/hexcells" plain/scene.json --size 300 -o plain_cells.json --json plain.json
+[ ! -s "$log/err" ] || ! grep -q "offsets\|cracks" "$log/err" || fail "remarks on what sceneimport wrote: $(cat "$log/err")"
+
 # Far from the origin heights are the file's, too.
 awk '/^v /{printf "v %.1f %.1f %.1f\n", 4000000 + $2, $3 + 5000000, 4000000 + $4; next} {print}' yard.obj >yard_far.obj
 expect 0 "$bin/sceneimport" yard_far.obj --piece 10 -o yard_far --json far.json
@@ -109,9 +118,24 @@ fault 2 "--unit" "$bin/sceneimport" yard.obj --unit feet -o x
 fault 2 "--up" "$bin/sceneimport" yard.obj --up w -o x
 fault 2 "--piece" "$bin/sceneimport" yard.obj --piece 0 -o x
 printf 'v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n' >flat.obj
-fault 1 "pieces" "$bin/sceneimport" yard.obj --unit 10000 -o x
+fault 1 "pieces" "$bin/sceneimport" yard.obj --unit 10000 --piece 8 -o x
 fault 1 "no area" "$bin/sceneimport" flat.obj -o x
+# Pictures and libraries that are missing or broken: the material's colour, said by name.
+left_out() {  # TEXT
+  expect 0 "$bin/sceneimport" yard.obj -o left_out --json left.json
+  grep -qF "$1" "$log/err" || fail "no '$1': $(cat "$log/err")"
+  says left.json '.pictures == 0 and .materials > 1'
+}
 mv checker.png away.png
-fault 1 "checker.png" "$bin/sceneimport" yard.obj -o x
-[ "$n_faults" -eq 12 ] || fail "$n_faults faults were tried"
+left_out "checker.png: cannot open"
+head -c 100 away.png >checker.png
+left_out "checker.png"
+mv away.png checker.png
+mv yard.mtl away.mtl
+expect 0 "$bin/sceneimport" yard.obj -o left_out --json left.json
+grep -q "libraries that are not there (1)" "$log/err" || fail "$(cat "$log/err")"
+grep -v mtllib yard.obj >bare.obj
+expect 0 "$bin/sceneimport" bare.obj -o left_out --json left.json
+says left.json '.pictures == 0 and .objects > 10'
+[ "$n_faults" -eq 11 ] || fail "$n_faults faults were tried"
 echo "sceneimport.sh: all well"

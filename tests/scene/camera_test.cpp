@@ -109,7 +109,7 @@ TEST(CameraPath, BadPathsAreRefused) {
   refuse([](Json& j) { j["samples"][0]["forward"] = {0, 0, 0}; }, "has no length");
   refuse([](Json& j) { j["samples"][0]["forward"] = {0, 0, -1}; }, "is vertical");
   refuse([](Json& j) { j["samples"][0].erase("eye"); }, "has no \"eye\"");
-  refuse([](Json& j) { j["fov_y_deg"] = 145; }, "fov_y_deg: 145 is not within 5 to 120");
+  refuse([](Json& j) { j["fov_y_deg"] = 145; }, "fov_y_deg: 145 is not within 5.0 to 120.0");
 }
 
 TEST(CameraPath, UnknownKeysAreSaid) {

@@ -50,8 +50,8 @@ void declare(Tool& tool, Options& o) {
                   "where most of the area lies that faces upwards)")
       .check(within(-1e6, 1e6));
   tool.add_option("--piece", &o.import.piece_m,
-                  "side of the pieces that the level is cut into, in metres")
-      .show_default()
+                  "side of the pieces that the level is cut into, in metres (default: 8, or more "
+                  "of a level that would have more than some thousand)")
       .check(within(0.01, 1e6));
   tool.add_option("--max-texture", &o.import.max_texture_px,
                   "make pictures smaller whose longer side has more pixels")
@@ -65,11 +65,17 @@ void declare(Tool& tool, Options& o) {
 
 Json make_report(const ImportedLevel& level) {
   const glm::dvec3 size = level.box_m.size();
-  return {{"triangles", count_triangles(level.scene)},   {"objects", level.scene.objects.size()},
-          {"materials", level.scene.materials.size()},   {"pictures", level.pictures.size()},
-          {"size_m", {size.x, size.y, size.z}},          {"floor_m", level.floor_m},
-          {"components", level.pieces.n_components},     {"components_cut", level.pieces.n_cut},
-          {"triangles_dropped", level.pieces.n_dropped}, {"units_per_metre", kUnitsPerMetre}};
+  return {{"triangles", count_triangles(level.scene)},
+          {"objects", level.scene.objects.size()},
+          {"materials", level.scene.materials.size()},
+          {"pictures", level.pictures.size()},
+          {"size_m", {size.x, size.y, size.z}},
+          {"floor_m", level.floor_m},
+          {"components", level.pieces.n_components},
+          {"components_cut", level.pieces.n_cut},
+          {"triangles_dropped", level.pieces.n_dropped},
+          {"units_per_metre", kUnitsPerMetre},
+          {"piece_m", level.piece_m}};
 }
 
 // Most levels are rooms, streets and landscapes.
@@ -106,7 +112,7 @@ int run(Tool& tool, Options& o) {
                                        {{"unit_m", o.import.unit_m},
                                         {"up", o.import.up},
                                         {"floor_m", level.floor_m},
-                                        {"piece_m", o.import.piece_m},
+                                        {"piece_m", level.piece_m},
                                         {"max_texture", o.import.max_texture_px}},
                                        {{"level", level.hash}});
   make_folder(tool.common().output);
