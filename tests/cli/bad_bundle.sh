@@ -136,7 +136,7 @@ says "$log/out" '.per_frame[1].modes.hybrid | .psnr_db == 100 and .stand_in == "
 # --- options, and the machine's fault ---
 fault 2 "required" "$bin/play" whole
 for options in "--modes film" "--modes hybrid,hybrid" "--modes ," "--reference film" "--size 0x0" \
-  "--size 64" "--size 64x32" "--size 9000x9000" "--frames 0" "--frames 1e9" "--gl metal" \
+  "--size 64" "--size 64x8" "--fov 200" "--size 9000x9000" "--frames 0" "--frames 1e9" "--gl metal" \
   "--texture-memory 0" "--every 0" "--every 2" "--quality-every 2" "--sheet x.png" "--save x --every 0"; do
   fault 2 "(see play --help)" $(play whole) $options
 done
