@@ -42,12 +42,16 @@ class RoomFinder {
       for (int column = 0; column < room_.columns; ++column)
         test(room_.index(column, static_cast<int>(row)));
     });
+    leave_bare_ground();
     const auto n_blocks = static_cast<std::size_t>(room_.block_columns());
     room_.sight.assign(n_blocks * static_cast<std::size_t>(room_.block_rows()), 0);
+    room_.is_open.assign(room_.sight.size(), 0);
     parallel_for(static_cast<std::size_t>(room_.block_rows()), n_threads_, [&](std::size_t row) {
       for (std::size_t column = 0; column < n_blocks; ++column)
-        if (const auto point = first_free_in(static_cast<int>(column), static_cast<int>(row)))
+        if (const auto point = first_free_in(static_cast<int>(column), static_cast<int>(row))) {
           room_.sight[row * n_blocks + column] = measure_sight(*point);
+          room_.is_open[row * n_blocks + column] = is_under_sky(*point);
+        }
     });
     return std::move(room_);
   }
@@ -62,32 +66,48 @@ class RoomFinder {
     room_.step = options_.step;
     const std::size_t n = room_.index(0, room_.rows);
     room_.floor_z.assign(n, 0), room_.is_free.assign(n, 0);
+    is_bare_.assign(n, 0);
   }
 
   void test(std::size_t point) {
     const double eye_z = cells_.eye_height.middle();
     const glm::dvec3 eye(room_.place(point), eye_z);
-    const std::optional<double> floor = find_floor(eye);
+    const std::optional<Floor> floor = find_floor(eye);
     const double slack = 0.5 * (cells_.eye_height.hi - cells_.eye_height.lo);
-    if (!floor || std::abs(*floor) > slack) return;
+    if (!floor || std::abs(floor->z) > slack) return;
     for (const double height : kHeights)
-      if (!is_clear({eye.x, eye.y, *floor + height * eye_z})) return;
-    room_.floor_z[point] = static_cast<float>(*floor);
+      if (!is_clear({eye.x, eye.y, floor->z + height * eye_z})) return;
+    room_.floor_z[point] = static_cast<float>(floor->z);
+    is_bare_[point] = floor->is_bare;
     room_.is_free[point] = 1;
   }
 
-  // The height of what is below, if one can stand on it.
-  std::optional<double> find_floor(const glm::dvec3& eye) const {
+  void leave_bare_ground() {
+    std::size_t n_free = 0, n_bare = 0;
+    for (std::size_t p = 0; p < is_bare_.size(); ++p)
+      n_free += room_.is_free[p], n_bare += is_bare_[p];
+    if (10 * (n_free - n_bare) < n_free) return;
+    for (std::size_t p = 0; p < is_bare_.size(); ++p)
+      if (is_bare_[p] != 0) room_.is_free[p] = 0;
+  }
+
+  struct Floor {
+    double z = 0;
+    bool is_bare = false;  // the ground, and no surface
+  };
+
+  // What is below, if one can stand on it.
+  std::optional<Floor> find_floor(const glm::dvec3& eye) const {
     RayPacket packet;
     packet.start(glm::vec3(eye), 0);
     for (int i = 0; i < RayPacket::kSize; ++i) packet.set_direction(i, {0, 0, -1});
     RayMask mask;
     mask.set(0, true);
     top_.intersect(mask, packet);
-    if (!packet.has_hit(0)) return scene_.ground_z;
+    if (!packet.has_hit(0)) return Floor{scene_.ground_z, true};
     const glm::vec3 normal = glm::normalize(turns_[packet.instance[0]] * packet.normal(0));
     if (!(normal.z > static_cast<float>(kLeastUp))) return {};
-    return eye.z - double(packet.far[0]);
+    return Floor{eye.z - double(packet.far[0]), false};
   }
 
   static RayMask aim_around(float reach, RayPacket& packet) {
@@ -120,12 +140,26 @@ class RoomFinder {
     return {};
   }
 
+  glm::vec3 eye_at(std::size_t point) const {
+    return glm::vec3(
+        glm::dvec3(room_.place(point), double(room_.floor_z[point]) + cells_.eye_height.middle()));
+  }
+
+  bool is_under_sky(std::size_t point) const {
+    RayPacket packet;
+    packet.start(eye_at(point), 0);
+    for (int i = 0; i < RayPacket::kSize; ++i) packet.set_direction(i, {0, 0, 1});
+    RayMask mask;
+    mask.set(0, true);
+    top_.intersect(mask, packet);
+    return !packet.has_hit(0);
+  }
+
   // Level rays all around: half for how near what they meet is, half for how many objects that is.
   float measure_sight(std::size_t point) const {
     const double eye_z = cells_.eye_height.middle(), reach = kSightReach * eye_z;
     RayPacket packet;
-    packet.start(glm::vec3(glm::dvec3(room_.place(point), double(room_.floor_z[point]) + eye_z)),
-                 0);
+    packet.start(eye_at(point), 0);
     const RayMask mask = aim_around(static_cast<float>(reach), packet);
     top_.intersect(mask, packet);
     std::set<std::uint32_t> met;
@@ -145,6 +179,7 @@ class RoomFinder {
   RayScene top_;
   std::vector<glm::mat3> turns_;  // by object
   StandingRoom room_;
+  std::vector<std::uint8_t> is_bare_;  // of points that are free
 };
 
 }  // namespace
@@ -214,7 +249,7 @@ std::vector<int> connect_parts(const StandingRoom& room) {
     while (!pending.empty()) {
       const std::size_t p = pending.back();
       pending.pop_back();
-      ++sizes.back();
+      sizes.back() += room.is_open[room.block_of(p)] != 0 ? 5 : 1;
       for (const std::size_t q : room.neighbours(p))
         if (part[q] < 0) part[q] = number, pending.push_back(q);
     }

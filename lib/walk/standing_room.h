@@ -31,6 +31,7 @@ struct StandingRoom {
   /// How much there is to see, of what stands around, within 25 times the eye's height: [0, 1].
   /// One number a block of kSightBlock x kSightBlock points, row by row.
   std::vector<float> sight;
+  std::vector<std::uint8_t> is_open;  ///< by block: nothing is above
   double step = 0;
 
   std::size_t index(int column, int row) const {
@@ -50,14 +51,18 @@ struct StandingRoom {
 };
 
 /// Points of the cells' area where, looking down from the middle of the eye's heights, the first
-/// surface faces upwards (or is the ground, where there is none) and is so far below that the eye
+/// surface faces upwards (or is the ground, where there is none; unless a tenth of the places where
+/// one can stand have a surface: then bare ground is none, as it is what lies under hollow houses
+/// and around levels) and is so far below that the eye
 /// stays within the heights that are baked; and where nothing is near at the heights of knee, chest
 /// and eye. Backs of surfaces count: an eye inside a wall does not stand. The scene's meshes must
 /// be there. Same for any n_threads (0: all).
 StandingRoom find_standing_room(const Scene& scene, const CellSet& cells,
                                 const WalkerOptions& options, int n_threads = 0);
 
-/// Of each point that is free, the number of its connected part, the largest one 0; others -1.
+/// Of each point that is free, the number of its connected part, the largest one 0; others -1. A
+/// point under the open sky counts five times: of a street and the hollow houses beside it one
+/// walks in the street.
 std::vector<int> connect_parts(const StandingRoom& room);
 
 }  // namespace viewcell

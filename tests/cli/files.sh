@@ -47,7 +47,7 @@ over_output "-o and --json would write the same file" parkgen -o x --json x/mesh
 over_output "-o and --json are one file" parkgen -o x --json ./x
 nowhere parkgen -o x --json no/x.json
 
-# --- sceneimport, walkpath, pvs ---
+# --- sceneimport, walkpath, pvs, scenedraw ---
 over_input "-o is the level that is read" sceneimport ball.off -o ball.off
 over_input "--json is the level that is read" sceneimport ball.off -o x --json ball.off
 over_output "-o and --json would write the same file" sceneimport ball.off -o x --json x/scene.json
@@ -66,6 +66,10 @@ over_input "-o is the scene that is read" pvs "${scene[@]}" -o park/scene.json
 over_input "-o is the file of cells" pvs "${scene[@]}" -o cells.json
 over_output "-o and --json are one file" pvs "${scene[@]}" -o x --json x
 nowhere pvs "${scene[@]}" -o no/x
+over_input "-o is the scene that is read" scenedraw park/scene.json -o park/scene.json
+over_input "-o is the file of cells" scenedraw park/scene.json --cells cells.json -o cells.json
+over_output "-o and --json are one file" scenedraw park/scene.json -o x --json x
+nowhere scenedraw park/scene.json -o no/x
 
 # --- hexcells: by other spellings and links, too ---
 ln -s scene.json park/link.json

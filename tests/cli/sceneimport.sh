@@ -92,6 +92,29 @@ says "$log/out" '(.samples[0].eye[0] - 100 | fabs) < 3 and (.samples[-1].eye[1] 
 cp "$log/out" one
 expect 0 "$bin/walkpath" yard/scene.json cells.json --through 100,-100 --through -100,100 -o - -q -j 1
 cmp -s "$log/out" one || fail "threads make another walk"
+# Pictures of it before any bake: all of it, as a map, from the walk, from an eye; the same again.
+is_picture() {  # FILE WIDTH HEIGHT: a PNG of that size, in which more is than one colour
+  [ "$(head -c 24 "$1" | tail -c 8 | od -An -tu1 -w8 | awk '{print $3*256+$4, $7*256+$8}')" = "$2 $3" ] || fail "$1 is not $2 x $3"
+  [ "$(stat -c %s "$1")" -gt 2000 ] || fail "$1 shows nothing"
+}
+draw=("$bin/scenedraw" yard/scene.json -q)
+expect 0 "${draw[@]}" --cells cells.json --path walk.json --size 320x200 -o corner.png --json draw.json
+is_picture corner.png 320 200
+says draw.json '.objects > 10 and .triangles > 30 and .width_px == 320'
+expect 0 "${draw[@]}" --cells cells.json --path walk.json --size 320x200 -o - -j 1
+cmp -s "$log/out" corner.png || fail "threads draw another picture"
+expect 0 "${draw[@]}" --from above --size 200x200 -o above.png
+is_picture above.png 200 200
+expect 0 "${draw[@]}" --from eye --path walk.json --at 2 --size 160x90 -o eye.png
+is_picture eye.png 160 90
+expect 0 "${draw[@]}" --from eye --eye=-60,-60,18 --toward 45,45,15 --size 160x90 --fov 40 -o eye.png
+is_picture eye.png 160 90
+fault 2 "--eye X,Y,Z" "${draw[@]}" --from eye -o x
+fault 2 "is not X,Y,Z" "${draw[@]}" --from eye --eye 1,2 --toward 0,0,0 -o x
+fault 2 "straight above" "${draw[@]}" --from eye --eye 1,2,3 --toward 1,2,9 -o x
+fault 2 "--size" "${draw[@]}" --size 8x8 -o x
+fault 1 "was made for another scene" "$bin/scenedraw" yard_cm/scene.json --cells cells.json -o x
+
 # What the cells see: of the cells of the walk; again the same, with one thread, from a pipe.
 mv cells.json grid.json
 expect 0 "$bin/pvs" yard/scene.json grid.json --cells path:path.json -o cells.json --json pvs.json
@@ -137,5 +160,5 @@ grep -q "libraries that are not there (1)" "$log/err" || fail "$(cat "$log/err")
 grep -v mtllib yard.obj >bare.obj
 expect 0 "$bin/sceneimport" bare.obj -o left_out --json left.json
 says left.json '.pictures == 0 and .objects > 10'
-[ "$n_faults" -eq 11 ] || fail "$n_faults faults were tried"
+[ "$n_faults" -eq 16 ] || fail "$n_faults faults were tried"
 echo "sceneimport.sh: all well"

@@ -101,6 +101,34 @@ TEST(Walk, LeadsThroughTheDoor) {
   }
 }
 
+// A pavement beside hollow houses: one walks on it, not on the bare ground under their roofs.
+TEST(StandingRoom, BareGroundIsNoFloorWhereThereIsPavement) {
+  Scene scene;
+  scene.area = {{0, 0}, {400, 300}};
+  scene.materials.resize(1);
+  add(scene, {0, 0, -1}, {400, 80, 0});       // the pavement
+  add(scene, {20, 100, 60}, {380, 290, 62});  // a roof
+  const Rooms paved(scene);
+  EXPECT_GT(paved.room.is_free[*paved.room.nearest({200, 40})], 0);
+  EXPECT_LT(paved.room.place(*paved.room.nearest({200, 200})).y, 82);
+  scene.objects.erase(scene.objects.begin());
+  const Rooms bare(std::move(scene));
+  EXPECT_LT(glm::distance(bare.room.place(*bare.room.nearest({200, 200})), {200, 200}), 4);
+}
+
+// Of a roofed room and a smaller yard beside it, with a wall between, the yard comes first.
+TEST(StandingRoom, OpenSkyComesFirst) {
+  Scene scene = make_rooms();
+  add(scene, {195, 130, -1}, {205, 190, 100});  // no door
+  add(scene, {-5, -5, 60}, {203, 205, 62});     // a roof over the left room
+  add(scene, {300, 100, 0}, {390, 190, 90});    // and less room in the right one
+  const Rooms rooms(std::move(scene));
+  const std::vector<int> parts = connect_parts(rooms.room);
+  EXPECT_EQ(parts[*rooms.room.nearest({250, 50})], 0);
+  EXPECT_EQ(parts[*rooms.room.nearest({100, 100})], 1);
+  EXPECT_GT(std::count(parts.begin(), parts.end(), 1), std::count(parts.begin(), parts.end(), 0));
+}
+
 // A village in a corner of wide open ground: the walk is there, not along the ground's far rim.
 TEST(Walk, StaysWhereThereIsMuchToSee) {
   Scene scene;
