@@ -25,4 +25,19 @@ CentreTiles capture_centre(const CellSet& cells, CentreId centre,
                            const std::vector<std::vector<glm::dvec3>>& points,
                            const CaptureDensity& density, const CaptureEngine& engine);
 
+/// The pixels of those tiles, without casting a ray.
+std::size_t count_pixels(const CellSet& cells, CentreId centre,
+                         const std::vector<std::vector<glm::dvec3>>& points,
+                         const CaptureDensity& density);
+
+/// Of the cells the one whose seven centres have the most pixels, all together: an upper bound of
+/// the texels that a player must hold to be in it, as an SVMesh needs its own centre's alone.
+struct LargestCell {
+  CellId cell{};
+  std::size_t n_pixels = 0;
+};
+LargestCell find_largest_cell(const CellSet& cells, const std::vector<CellId>& list,
+                              const std::vector<std::vector<glm::dvec3>>& points,
+                              const CaptureDensity& density, int n_threads);
+
 }  // namespace viewcell

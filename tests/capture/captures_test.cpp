@@ -4,6 +4,8 @@
 
 #include <fstream>
 #include <set>
+#include "base/random.h"
+#include "capture/capture_centre.h"
 
 #include "capture/ray_capture.h"
 #include "capture/shapes.h"
@@ -181,6 +183,65 @@ TEST(ObjectsSeenFrom, AreThoseOutsideSomeCellOfTheNeighbourhood) {
   for (auto& inside : cells.inside) inside = {ObjectId(0), ObjectId(2)};
   EXPECT_EQ(seen(1, 1), (std::vector<ObjectId>{ObjectId(1)}));
   EXPECT_EQ(seen(-1, -1).size(), 1u);
+}
+
+// Of cells that were tested only what they see is captured, and of those that were not, nothing.
+TEST(ObjectsSeenFrom, AreThoseThatTestedCellsSee) {
+  CellSet cells;
+  cells.grid = {{0, 0}, 50, 4, 3};
+  cells.n_objects = 3;
+  cells.inside.assign(12, {});
+  cells.is_tested.assign(12, false), cells.unseen.assign(12, {});
+  cells.own.assign(12, {});
+  const auto seen = [&] {
+    return objects_seen_from(cells, *centre_at(cells.grid, coord_of(cells.grid, CellId(5))));
+  };
+  EXPECT_EQ(seen(), (std::vector<ObjectId>{}));
+  cells.is_tested[5] = true;
+  EXPECT_EQ(seen(), (std::vector<ObjectId>{ObjectId(0), ObjectId(1), ObjectId(2)}));
+  cells.unseen[5] = {ObjectId(1)};
+  EXPECT_EQ(seen(), (std::vector<ObjectId>{ObjectId(0), ObjectId(2)}));
+  cells.own[5] = {ObjectId(0)};  // drawn as it is
+  EXPECT_EQ(seen(), (std::vector<ObjectId>{ObjectId(2)}));
+  cells.is_tested[index(*cell_at(cells.grid, neighbour(coord_of(cells.grid, CellId(5)), 0)))] =
+      true;
+  EXPECT_EQ(seen().size(), 3u);  // that neighbour sees all
+}
+
+// What is said to be needed is what is captured.
+TEST(LargestCell, CountsWhatIsCaptured) {
+  Scene scene = make_scene_of(make_sphere(6, 12, 8));
+  scene.area = {{0, 0}, {200, 150}};
+  const SceneObject first = scene.objects[0];
+  scene.objects.clear();
+  Random random(4);
+  for (int i = 0; i < 9; ++i) {
+    scene.objects.push_back(first);
+    scene.objects.back().translation = {random.uniform(0, 200), random.uniform(0, 150), 15};
+  }
+  const CellSet cells = make_cells(scene, 40, {16, 20});
+  const CaptureDensity density{.resolution_px = 96};
+  const auto points = object_points_world(scene);
+  const RayCapture rays(scene, 1);
+  const CaptureEngine engine = [&](ObjectId o, const CaptureView& v, const Crop& c) {
+    return rays.capture(o, v, c);
+  };
+  std::vector<CellId> list;
+  for (int i = 0; i < cells.grid.n_cells(); ++i) list.push_back(CellId(i));
+  std::size_t most = 0;
+  for (const CellId cell : list) {
+    std::size_t n = 0;
+    for (const CentreId centre : views_of(cells.grid, cell)) {
+      std::size_t of_centre = 0;
+      for (const CaptureTile& tile : capture_centre(cells, centre, points, density, engine).tiles)
+        of_centre += tile.color.pixels.size();
+      EXPECT_EQ(count_pixels(cells, centre, points, density), of_centre);
+      n += of_centre;
+    }
+    most = std::max(most, n);
+  }
+  EXPECT_EQ(find_largest_cell(cells, list, points, density, 2).n_pixels, most);
+  EXPECT_GT(most, 1000u);
 }
 
 }  // namespace

@@ -155,6 +155,7 @@ for size in 0 -5 nan inf 1e9 wide; do
   fault 2 "--size" "$bin/hexcells" park/scene.json --size $size -o x
 done
 fault 2 "too many" "$bin/hexcells" park/scene.json --size 0.01 -o x
+fault 1 "MB of textures, more than --budget" "$bin/depthcap" park/scene.json cells.json --budget 0.01 -o x
 fault 2 "--resolution" "$bin/depthcap" park/scene.json cells.json --resolution 1e9 -o x
 fault 2 "--far-scale" "$bin/depthcap" park/scene.json cells.json --far-scale nan -o x
 fault 2 "--engine" "$bin/depthcap" park/scene.json cells.json --engine guess -o x

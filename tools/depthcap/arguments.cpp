@@ -20,6 +20,11 @@ void declare_arguments(Tool& tool, DepthcapArguments& a) {
   tool.add_option("--most-pixels", &a.density.most_px, "pixels of one object's crop at most")
       .show_default()
       .check(in_range(64, 1 << 28));
+  tool.add_option("--budget", &a.budget_mb,
+                  "MB of textures that a cell may need at most, by the captures of its seven "
+                  "centres; play holds 512 at most; 0: any")
+      .show_default()
+      .check(within(0, 1e9));
   tool.add_option("--engine", &a.engine, "embree | gl")
       .show_default()
       .check(one_of({"embree", "gl"}));

@@ -15,6 +15,7 @@ struct DepthcapArguments {
   CaptureDensity density;
   std::string engine = "embree", gl = "osmesa";
   std::optional<std::size_t> max_pixels;
+  double budget_mb = 512;
 };
 
 void declare_arguments(Tool& tool, DepthcapArguments& arguments);

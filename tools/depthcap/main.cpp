@@ -1,6 +1,7 @@
 // depthcap: captures colour and depth of every object from every cell's centre.
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <filesystem>
 
 #include "base/error.h"
@@ -40,6 +41,21 @@ void with_engine(const DepthcapArguments& a, const Scene& scene, int n_threads,
   }
 }
 
+// Megabytes of textures of the cell that needs most; refuses those that no player could hold.
+double check_budget(const DepthcapArguments& a, const CellSet& cells,
+                    const std::vector<CellId>& list,
+                    const std::vector<std::vector<glm::dvec3>>& points, int n_threads) {
+  const LargestCell largest = find_largest_cell(cells, list, points, a.density, n_threads);
+  const double most_mb = 4e-6 * static_cast<double>(largest.n_pixels);
+  if (a.budget_mb == 0 || most_mb <= a.budget_mb) return most_mb;
+  throw InputError(a.cells_file, "cells[" + std::to_string(static_cast<int>(largest.cell)) + "]",
+                   "needs up to " + std::to_string(std::lround(most_mb)) +
+                       " MB of textures, more than --budget " +
+                       std::to_string(std::lround(a.budget_mb)) +
+                       (cells.is_tested.empty() ? "; leave out what cells never see (pvs)" : "") +
+                       "; or a lower --resolution, or hexcells with smaller cells");
+}
+
 int run(Tool& tool, const DepthcapArguments& a) {
   const int n_threads = tool.common().n_threads;
   Scene scene = read_scene(a.scene_file, {.n_threads = n_threads, .limits = mesh_limits(tool)});
@@ -51,11 +67,12 @@ int run(Tool& tool, const DepthcapArguments& a) {
   check_tested(cells, list, a.cells_file);
   const auto centres = centres_of(cells, list);
   const CaptureSettings settings{scene.hash, cells.file_hash, a.density, a.engine};
+  const auto points = object_points_world(scene);
+  const double most_mb = check_budget(a, cells, list, points, n_threads);
   const std::filesystem::path folder = tool.common().output;
   make_folder(folder);
   const FolderLock lock(folder, tool.name(), settings.key());
 
-  const auto points = object_points_world(scene);
   Counts counts;
   with_engine(a, scene, n_threads, [&](const CaptureEngine& engine, int n_workers) {
     const auto capture = [&](std::size_t i) {
@@ -84,9 +101,11 @@ int run(Tool& tool, const DepthcapArguments& a) {
                {"kept", counts.n_kept.load()},
                {"captures", counts.n_tiles.load()},
                {"pixels", counts.n_pixels.load()},
-               {"left_out", counts.n_left_out.load()}});
+               {"left_out", counts.n_left_out.load()},
+               {"cell_mb_most", most_mb}});
   tool.say(std::to_string(centres.size()) + " centres, " + std::to_string(counts.n_kept.load()) +
-           " of them already there, " + std::to_string(counts.n_tiles.load()) + " captures");
+           " of them already there, " + std::to_string(counts.n_tiles.load()) +
+           " captures; up to " + std::to_string(std::lround(most_mb)) + " MB a cell");
   return 0;
 }
 
