@@ -1,9 +1,11 @@
 #include "import/import_level.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstdio>
 #include <map>
+#include <set>
 
 #include "base/error.h"
 #include "base/file.h"
@@ -121,6 +123,12 @@ class LevelImporter {
       out.wrap_v = wrap_of(m.look.color_sampler.wrap_t);
     }
     out.double_sided = m.look.is_double_sided;
+    // An OBJ does not say whether its pictures' alpha counts; holes in them are there to be seen,
+    // and what has some, a leaf or a fence, is thin.
+    if (is_obj() && has_holes_.contains(picture)) {
+      out.alpha = AlphaMode::mask, out.double_sided = true;
+      add_remark(&out_.remarks, "materials whose pictures have holes, drawn as masks, both sides");
+    }
     out.opacity = static_cast<float>(std::clamp(m.look.base_color_factor.w, 0.0, 1.0));
     if (m.look.alpha_mode != "OPAQUE") {
       out.alpha = AlphaMode::mask;
@@ -131,6 +139,19 @@ class LevelImporter {
     }
     out.emissive = glm::clamp(glm::vec3(m.look.emissive), 0.0f, 100.0f);
     return out;
+  }
+
+  bool is_obj() const {
+    std::string ending = file_.extension().string();
+    for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return ending == ".obj";
+  }
+
+  // Whether a thousandth of it, or more, is below half of what alpha may be.
+  static bool is_holed(const ImageRgba8& image) {
+    const auto n = std::count_if(image.pixels.begin(), image.pixels.end(),
+                                 [](const Rgba8& pixel) { return pixel[3] < 128; });
+    return 1000 * static_cast<std::size_t>(n) >= image.pixels.size();
   }
 
   // The file that it will be; empty, and a remark, where it cannot be read.
@@ -160,6 +181,7 @@ class LevelImporter {
       add_remark(&out_.remarks, "pictures made smaller");
     }
     out_.pictures.push_back({"textures/" + number + ending, std::move(bytes)});
+    if (is_holed(image)) has_holes_.insert(out_.pictures.back().file);
     return out_.pictures.back().file;
   }
 
@@ -216,6 +238,7 @@ class LevelImporter {
   const ImportOptions& options_;
   ImportedLevel out_;
   std::map<std::string, int> material_of_;
+  std::set<std::string> has_holes_;  // pictures, by file
 };
 
 }  // namespace

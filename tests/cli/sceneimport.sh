@@ -129,7 +129,7 @@ expect 0 "$bin/svmesh" yard/scene.json cells.json captures --cells path:path.jso
 expect 0 "$bin/mvmesh" yard/scene.json cells.json captures --cells path:path.json -o mv
 expect 0 "$bin/cellpack" yard/scene.json cells.json captures sv mv --cells path:path.json -o bundle
 rm -r yard
-expect 0 "$bin/play" bundle --path path.json --frames 6 --size 160x160 --modes frustum,raycast,hybrid --reference frustum --stats stats.json
+expect 0 "$bin/play" bundle --path path.json --frames 6 --size 160x160 --modes frustum,raycast,hybrid --reference frustum --stats stats.json --save frames --save-alpha
 says stats.json '[.. | objects | select(.mode? == "raycast") | .psnr_covered_db?] | map(select(. != null)) | length == 0 or min > 40'
 
 # Faults.
@@ -143,6 +143,15 @@ fault 2 "--piece" "$bin/sceneimport" yard.obj --piece 0 -o x
 printf 'v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n' >flat.obj
 fault 1 "pieces" "$bin/sceneimport" yard.obj --unit 10000 --piece 8 -o x
 fault 1 "no area" "$bin/sceneimport" flat.obj -o x
+# An OBJ's picture with holes makes a mask that is seen from both sides; one with alpha 255 does not.
+cp frames/frustum/frame-00000.png leaf.png
+sed 's/checker.png/leaf.png/' yard.mtl >leaf.mtl
+sed 's/yard.mtl/leaf.mtl/' yard.obj >leaf.obj
+expect 0 "$bin/sceneimport" leaf.obj -o leafy --json leafy.json
+grep -q "pictures have holes, drawn as masks, both sides (1)" "$log/err" || fail "$(cat "$log/err")"
+says leafy/scene.json '[.materials[] | select(.alpha == "mask" and .double_sided)] | length == 1'
+says yard_1/scene.json '[.materials[] | select(.alpha == "mask")] | length == 0'
+
 # Pictures and libraries that are missing or broken: the material's colour, said by name.
 left_out() {  # TEXT
   expect 0 "$bin/sceneimport" yard.obj -o left_out --json left.json
