@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cells/self_occluding.h"
 #include "scene/camera.h"
 
 namespace viewcell {
@@ -64,10 +65,6 @@ glm::dvec3 middle_of(std::span<const glm::dvec3> points) {
 }
 
 }  // namespace
-
-double focal_of_face(int resolution_px) {
-  return 0.5 * resolution_px / std::tan(glm::radians(30.0));
-}
 
 std::optional<ViewedObject> choose_view(const glm::dvec3& eye, std::span<const glm::dvec3> points,
                                         const CaptureDensity& density) {

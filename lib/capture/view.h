@@ -60,9 +60,6 @@ struct CaptureDensity {
   int most_px = 1 << 20;
 };
 
-/// Pixels per unit tangent when a side face, 60 degrees wide from the cell's centre, is that wide.
-double focal_of_face(int resolution_px);
-
 /// The view of an object (its points in the world) from an eye: on the plane of the side face that
 /// the middle of its points lies behind, at the given density; or, when it
 /// reaches more than kTurnDeg from that face's axis, on a plane turned to its middle, at the same

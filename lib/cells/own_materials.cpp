@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cells/self_occluding.h"
+
 namespace viewcell {
 namespace {
 
@@ -33,7 +35,7 @@ double distance_to(const Box& box, const glm::dvec3& p) {
 double captured_px(const Box& box, const glm::dvec3& eye, int resolution_px) {
   const double radius = 0.5 * glm::length(box.size());
   const double distance = std::max(glm::distance(box.centre(), eye), radius);
-  const double focal_px = 0.5 * resolution_px / std::tan(glm::radians(30.0));
+  const double focal_px = focal_of_face(resolution_px);
   return distance > 0 ? std::acos(-1.0) * std::pow(focal_px * radius / distance, 2) : 0;
 }
 

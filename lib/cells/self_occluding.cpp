@@ -47,4 +47,8 @@ ObjectDepth measure_depth(const glm::dvec3& eye, std::span<const glm::vec3> posi
   return {nearest, hi - lo};
 }
 
+double focal_of_face(int resolution_px) {
+  return 0.5 * resolution_px / std::tan(glm::radians(30.0));
+}
+
 }  // namespace viewcell

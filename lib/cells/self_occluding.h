@@ -25,4 +25,7 @@ ObjectDepth measure_depth(const glm::dvec3& eye, std::span<const glm::vec3> posi
                           std::span<const Triangle> triangles,
                           const std::vector<bool>& is_back_facing);
 
+/// Pixels per unit tangent when a side face, 60 degrees wide from the cell's centre, is that wide.
+double focal_of_face(int resolution_px);
+
 }  // namespace viewcell

@@ -34,14 +34,10 @@ std::string varyings(const std::string& direction, int n_views, DrawnSides sides
          direction + " vec3 local;\n";
 }
 
-// Four texels around the point, weighted bilinearly and by how near their depth is to the
-// fragment's own: with x = difference / tolerance, 1 / (1 + x^8), nearly a step. Where no texel is
-// within the tolerance the nearest in depth wins, unless all are far off (make_textured_main).
-// Returns colour times weight, and the weight.
-const char* kGuardedFetch = R"(
-layout(binding = 0) uniform samplerBuffer texels;
-vec4 guarded_fetch(vec3 stq, ivec4 region, vec4 code) {
-  if (region.y == 0 || stq.z <= 0.0) return vec4(0);
+constexpr const char* kTexels = "layout(binding = 0) uniform samplerBuffer texels;\n";
+
+// In a fetch: the four texels around the point, and their bilinear weights.
+const char* kFourTexels = R"(
   float r = 1.0 / stq.z;
   vec2 at = clamp(stq.xy * r - 0.5, vec2(0), vec2(region.yz) - 1.001);
   ivec2 corner = ivec2(at);
@@ -50,8 +46,19 @@ vec4 guarded_fetch(vec3 stq, ivec4 region, vec4 code) {
   vec4 t00 = texelFetch(texels, i), t10 = texelFetch(texels, i + 1);
   i += region.y;
   vec4 t01 = texelFetch(texels, i), t11 = texelFetch(texels, i + 1);
-  vec4 away = abs(vec4(t00.a, t10.a, t01.a, t11.a) - (code.x * r + code.y));
   vec4 w = vec4((1.0 - f.x) * (1.0 - f.y), f.x * (1.0 - f.y), (1.0 - f.x) * f.y, f.x * f.y);
+)";
+
+// Four texels around the point, weighted bilinearly and by how near their depth is to the
+// fragment's own: with x = difference / tolerance, 1 / (1 + x^8), nearly a step. Where no texel is
+// within the tolerance the nearest in depth wins, unless all are far off (make_textured_main).
+// Returns colour times weight, and the weight.
+std::string make_guarded_fetch() {
+  return R"(
+vec4 guarded_fetch(vec3 stq, ivec4 region, vec4 code) {
+  if (region.y == 0 || stq.z <= 0.0) return vec4(0);
+)" + std::string(kFourTexels) +
+         R"(  vec4 away = abs(vec4(t00.a, t10.a, t01.a, t11.a) - (code.x * r + code.y));
   vec4 far = away * code.z;
   far *= far;
   far *= far;
@@ -59,26 +66,19 @@ vec4 guarded_fetch(vec3 stq, ivec4 region, vec4 code) {
   return vec4(w.x * t00.rgb + w.y * t10.rgb + w.z * t01.rgb + w.w * t11.rgb, dot(w, vec4(1)));
 }
 )";
+}
 
 // The same for surfaces with holes, where a texel of code 0 shows nothing of the object. Beside
 // it: the colour of texels that show the fragment or what lies before it, and their share. The rest
 // see through the place where the fragment is.
-const char* kMaskedFetch = R"(
-layout(binding = 0) uniform samplerBuffer texels;
+std::string make_masked_fetch() {
+  return R"(
 vec4 masked_fetch(vec3 stq, ivec4 region, vec4 code, out vec4 shown) {
   shown = vec4(0);
   if (region.y == 0 || stq.z <= 0.0) return vec4(0);
-  float r = 1.0 / stq.z;
-  vec2 at = clamp(stq.xy * r - 0.5, vec2(0), vec2(region.yz) - 1.001);
-  ivec2 corner = ivec2(at);
-  vec2 f = at - vec2(corner);
-  int i = region.x + corner.y * region.y + corner.x;
-  vec4 t00 = texelFetch(texels, i), t10 = texelFetch(texels, i + 1);
-  i += region.y;
-  vec4 t01 = texelFetch(texels, i), t11 = texelFetch(texels, i + 1);
-  vec4 codes = vec4(t00.a, t10.a, t01.a, t11.a);
+)" + std::string(kFourTexels) +
+         R"(  vec4 codes = vec4(t00.a, t10.a, t01.a, t11.a);
   vec4 nearer = (codes - (code.x * r + code.y)) * code.z;  // in tolerances
-  vec4 w = vec4((1.0 - f.x) * (1.0 - f.y), f.x * (1.0 - f.y), (1.0 - f.x) * f.y, f.x * f.y);
   vec4 stops = w * step(0.5 / 255.0, codes) * step(-1.6, nearer);
   shown = vec4(stops.x * t00.rgb + stops.y * t10.rgb + stops.z * t01.rgb + stops.w * t11.rgb,
                dot(stops, vec4(1)));
@@ -89,6 +89,7 @@ vec4 masked_fetch(vec3 stq, ivec4 region, vec4 code, out vec4 shown) {
               dot(stops, vec4(1)));
 }
 )";
+}
 
 // lit_color(); and how much view k counts, which on the other side of the triangle is nothing.
 const char* kFrontOnly = R"(
@@ -173,8 +174,9 @@ std::string make_hybrid_fragment_glsl(int n_views, DrawnSides sides) {
                           "layout(location = 0) out vec4 color;\n" + kBlock +
                           (sides != DrawnSides::front ? kBothSides : kFrontOnly);
   if (n_views == 0) return out + kLitMain;
-  if (sides == DrawnSides::masked) return out + kMaskedFetch + make_masked_main(n_views);
-  return out + kGuardedFetch + make_textured_main(n_views);
+  if (sides == DrawnSides::masked)
+    return out + kTexels + make_masked_fetch() + make_masked_main(n_views);
+  return out + kTexels + make_guarded_fetch() + make_textured_main(n_views);
 }
 
 std::string make_edge_fragment_glsl() {

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "base/random.h"
+#include "cells/self_occluding.h"
 #include "rays/ray_scene.h"
 
 namespace viewcell {
@@ -124,7 +125,7 @@ struct SeenFinder::State {
   int rays_for(const SeenTarget& target, const glm::dvec3& eye) const {
     const double distance = std::max(glm::distance(target.middle, eye) - cells.grid.size,
                                      std::max(target.radius, 1e-9));
-    const double focal_px = 0.5 * options.resolution_px / std::tan(kPi / 6);
+    const double focal_px = focal_of_face(options.resolution_px);
     const double seen_px = kPi * std::pow(focal_px * target.radius / distance, 2);
     const double wanted = 3 * seen_px / options.patch_px;  // 95 %: 1 - exp(-3)
     return static_cast<int>(std::clamp(wanted, double(kLeastRays), double(options.most_rays)));

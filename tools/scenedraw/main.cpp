@@ -70,13 +70,13 @@ glm::dvec3 parse_place(const char* option, const std::string& text) {
   return p;
 }
 
+// To a hundred thousandth of the path.
 Camera camera_at(const CameraPath& path, double time_s) {
-  CameraPath rest = path;  // from that time on
   const double last = path.samples.back().time_s, first = path.samples.front().time_s;
   const double share = last > first ? std::clamp((time_s - first) / (last - first), 0.0, 1.0) : 0;
   constexpr std::size_t kSteps = 100000;
   const auto step = static_cast<std::size_t>(std::lround(share * (kSteps - 1)));
-  return sample_path(rest, kSteps).at(step);
+  return sample_path(path, kSteps).at(step);
 }
 
 Camera choose_eye(const Options& o, const std::optional<CameraPath>& path) {
